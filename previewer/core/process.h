@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bounce {
+
+struct ProcessResult {
+    int exit_code = 0;   // 128 + signal where a signal ended it
+    std::string output;  // stdout and stderr, interleaved
+    double seconds = 0.0;
+};
+
+// Runs a program without a shell and waits for it. on_line, where given, sees each line of output as
+// it comes. Throws Error (failed) where the program cannot be started.
+ProcessResult run_process(const std::vector<std::string>& command,
+                          const std::function<void(std::string_view line)>& on_line = {});
+
+// The program's full path on $PATH, or nothing.
+std::optional<std::filesystem::path> find_program(std::string_view name);
+
+// Folder that holds the running executable.
+std::filesystem::path executable_folder();
+
+}  // namespace bounce

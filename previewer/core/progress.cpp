@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace bounce {
+
+Progress::Progress(std::string title, int total)
+    : title_(std::move(title)),
+      total_(std::max(total, 1)),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() {
+    if (terminal_ && done_ > 0) {
+        std::fputc('\n', stderr);
+    }
+}
+
+void Progress::step(std::string_view note) {
+    ++done_;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double left = elapsed / done_ * (total_ - done_);
+    if (!terminal_) {
+        fmt::print(stderr, "{} {}/{}: {}\n", title_, done_, total_, note);
+        return;
+    }
+    constexpr int width = 24;
+    const int filled = std::clamp(width * done_ / total_, 0, width);
+    // \x1b[K clears what a longer line before left behind.
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}, {:.0f} s left\x1b[K", title_, "", filled, "",
+               width - filled, done_, total_, note, left);
+    std::fflush(stderr);
+}
+
+}  // namespace bounce

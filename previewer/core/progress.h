@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace bounce {
+
+// Progress of long work on stderr: a bar that is redrawn in place on a terminal, one line a step elsewhere.
+class Progress {
+  public:
+    Progress(std::string title, int total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    Progress(Progress&&) = delete;
+    Progress& operator=(Progress&&) = delete;
+
+    // One step is done; note says which ("frame 12, 41 ms").
+    void step(std::string_view note);
+
+  private:
+    std::string title_;
+    int total_;
+    int done_ = 0;
+    bool terminal_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace bounce

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "image/image.h"
+
+namespace bounce {
+
+// Metadata written into the file's header (scene, frame, settings).
+using ImageAttributes = std::map<std::string, std::string>;
+
+// Writes atomically, format by extension: .exr (half, scene-linear as it is), .png (8 bit, the values
+// are taken as display-referred already: apply a view transform first) and what else OpenImageIO
+// writes by the same two rules (.hdr, .tif float: linear; .jpg, .tga: display). Throws output_error.
+void write_image(const std::filesystem::path& path, const Image& image, const ImageAttributes& attributes = {});
+
+// True where the extension names a scene-linear format (exr, hdr, pfm, tif).
+[[nodiscard]] bool is_scene_linear(const std::filesystem::path& path);
+
+// Reads RGB floats as stored (no colour conversion; 8-bit values become 0..1). An alpha channel is
+// dropped where it is 1 everywhere and refused otherwise. Throws input_error.
+[[nodiscard]] Image read_image(const std::filesystem::path& path);
+
+}  // namespace bounce
