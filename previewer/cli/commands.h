@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One file a subcommand. Each function adds its subcommand to the app and sets `run`, called after a
+// successful parse, which returns the exit code or throws bounce::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "core/error.h"
+
+namespace bounce::cli {
+
+using Run = std::function<ExitCode()>;
+
+}  // namespace bounce::cli
