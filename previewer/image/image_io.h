@@ -15,7 +15,8 @@ using ImageAttributes = std::map<std::string, std::string>;
 // Writes atomically, format by extension: .exr (half, scene-linear as it is), .png (8 bit, the values
 // are taken as display-referred already: apply a view transform first) and what else OpenImageIO
 // writes by the same two rules (.hdr, .tif float: linear; .jpg, .tga: display). Throws output_error.
-void write_image(const std::filesystem::path& path, const Image& image, const ImageAttributes& attributes = {});
+void write_image(const std::filesystem::path& path, const Image& image,
+                 const ImageAttributes& attributes = {});
 
 // True where the extension names a scene-linear format (exr, hdr, pfm, tif).
 [[nodiscard]] bool is_scene_linear(const std::filesystem::path& path);

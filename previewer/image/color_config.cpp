@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/color_config.h"
+
+#include <cstdlib>
+#include <system_error>
+
+#include "core/process.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+std::optional<fs::path> config_in(const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path config = folder / "datafiles" / "colormanagement" / "config.ocio";
+    return fs::is_regular_file(config, ignored) ? std::optional<fs::path>(config) : std::nullopt;
+}
+
+// In folder itself or in one of its folders named like a version ("3.4").
+std::optional<fs::path> config_in_or_below(const fs::path& folder) {
+    if (const auto config = config_in(folder)) {
+        return config;
+    }
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        if (entry.path().filename().string().find('.') != std::string::npos) {
+            if (const auto config = config_in(entry.path())) {
+                return config;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<fs::path> color_config_of_blender(const fs::path& blender_executable) {
+    std::error_code code;
+    const fs::path real = fs::canonical(blender_executable, code);
+    if (code) {
+        return std::nullopt;
+    }
+    if (auto config = config_in_or_below(real.parent_path())) {
+        return config;
+    }
+    return config_in_or_below(real.parent_path().parent_path() / "share" / "blender");
+}
+
+std::optional<fs::path> find_color_config() {
+    if (const char* config = std::getenv("OCIO"); config != nullptr && *config != '\0') {
+        return fs::path(config);
+    }
+    const char* blender = std::getenv("BLENDER");
+    const auto executable = find_program(blender != nullptr && *blender != '\0' ? blender : "blender");
+    return executable ? color_config_of_blender(*executable) : std::nullopt;
+}
+
+}  // namespace bounce
