@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decides which nodes of the exporter's tree are written: what the render shows and what moves it, nothing else."""
+
+from . import read_lights
+
+# Types that hiding in renders makes vanish. An armature or an empty shows nothing either way.
+_SHOWING = {"MESH", "LIGHT"}
+
+
+def is_rendered(obj):
+    return obj.type in _SHOWING or _is_instance(obj)
+
+
+def _is_instance(obj):
+    return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
+
+
+def tag(vtree, export):
+    used_armatures = {
+        vnode.armature for vnode in vtree.nodes.values()
+        if vnode.blender_bone is None and vnode.armature is not None and _is_shown(vnode, vtree, export)
+    }
+    _detach_children_of_blinking(vtree, export)
+    for root in list(vtree.roots):
+        _tag(root, vtree, export, used_armatures)
+
+
+def _tag(uuid, vtree, export, used_armatures):
+    """Keeps a node that shows something or has a descendant that does. Returns whether it was kept."""
+    vnode = vtree.nodes[uuid]
+    children_kept = [_tag(child, vtree, export, used_armatures) for child in vnode.children]
+    if vnode.blender_bone is not None:
+        keep = vnode.armature in used_armatures or any(children_kept)
+    else:
+        shown = _is_shown(vnode, vtree, export) and _shows_something(vnode, export)
+        keep = shown or any(children_kept) or uuid in used_armatures
+    vnode.keep_tag = keep
+    return keep
+
+
+def _is_shown(vnode, vtree, export):
+    instancer = _instancer(vnode, vtree)
+    if instancer is None:
+        shown = export.visibility.direct
+    else:
+        if not _is_shown(instancer, vtree, export):
+            return False
+        shown = export.visibility.instanced(instancer.blender_object.instance_collection)
+    obj = vnode.blender_object
+    if obj.as_pointer() not in shown:
+        return False
+    visible = export.samples.visible.get(export.source_of(obj))
+    return visible is None or bool(visible.any())
+
+
+def _shows_something(vnode, export):
+    obj = vnode.blender_object
+    if obj.type == "MESH":
+        return len(obj.data.polygons) > 0
+    if obj.type == "LIGHT":
+        return not read_lights.is_portal(obj.data)
+    return obj.type == "CAMERA"
+
+
+def _instancer(vnode, vtree):
+    """The nearest instancing empty above, or None."""
+    uuid = vnode.parent_uuid
+    while uuid is not None:
+        parent = vtree.nodes[uuid]
+        if parent.blender_bone is None and _is_instance(parent.blender_object):
+            return parent
+        uuid = parent.parent_uuid
+    return None
+
+
+def _detach_children_of_blinking(vtree, export):
+    """glTF hides a node's children with it, Blender does not: what blinks may not have children."""
+    for uuid, vnode in vtree.nodes.items():
+        obj = vnode.blender_object
+        if vnode.blender_bone is not None or obj.type not in _SHOWING:
+            continue
+        visible = export.samples.visible.get(export.source_of(obj))
+        if visible is None or visible.all() or not visible.any():
+            continue
+        for child in vnode.children:
+            vtree.nodes[child].parent_uuid = vnode.parent_uuid
+            siblings = vtree.roots if vnode.parent_uuid is None else vtree.nodes[vnode.parent_uuid].children
+            siblings.append(child)
+        vnode.children = []

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exports a scene from the command line, with nothing installed in Blender:
+
+    blender -b --factory-startup SCENE.blend -P blender_addon/export_cli.py -- OUT.glb [options]
+"""
+
+import argparse
+import sys
+import traceback
+from pathlib import Path
+
+import addon_utils
+import bpy
+
+EXIT_FAILED = 1
+
+
+def parse(arguments):
+    from bounce.options import Options
+
+    defaults = Options()
+    parser = argparse.ArgumentParser(prog="export_cli.py", description="Export the open .blend for Bounce.")
+    parser.add_argument("output", metavar="OUT.glb", help="file to write; .gltf writes separate files")
+    parser.add_argument("--no-draco", dest="draco", action="store_false", help="do not compress meshes")
+    parser.add_argument("--draco-level", type=_bounded(0, 10), default=defaults.draco_level, metavar="0-10",
+                        help="0 is fastest, 10 smallest (default %(default)s)")
+    for name in ("position", "normal", "texcoord", "color", "generic"):
+        parser.add_argument(f"--{name}-bits", type=_bounded(0, 30), default=getattr(defaults, f"{name}_bits"),
+                            metavar="N", help="quantisation, 0 for none (default %(default)s)")
+    parser.add_argument("--no-animation", dest="animation", action="store_false",
+                        help="write the first frame alone")
+    return parser.parse_args(arguments)
+
+
+def _bounded(low, high):
+    def convert(text):
+        value = int(text)
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{value} is not within {low} and {high}")
+        return value
+
+    return convert
+
+
+def main():
+    here = Path(__file__).resolve().parent
+    sys.path.insert(0, str(here))
+    arguments = vars(parse(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []))
+    from bounce.errors import ExportError
+    from bounce.options import Options
+
+    if not bpy.data.filepath:
+        # Blender goes on with its default scene when it cannot read the file it was given.
+        raise ExportError("no .blend file is open; was it found and could this Blender read it?")
+    if addon_utils.enable("bounce", default_set=True) is None:
+        raise ExportError("the add-on 'bounce' cannot be enabled")
+    from bounce.export import export
+
+    output = arguments.pop("output")
+    for line in export(output, Options(**arguments)).lines():
+        print(f"bounce: {line}")
+
+
+if __name__ == "__main__":
+    # Blender itself exits with 0 after a Python exception.
+    try:
+        main()
+    except SystemExit:
+        raise
+    except Exception as error:
+        name = ""
+        if type(error).__name__ != "ExportError":
+            # Not foreseen: the sentence goes to stderr as ever, where it happened to stdout.
+            traceback.print_exc(file=sys.stdout)
+            name = f"{type(error).__name__}: "
+        print(f"bounce: export failed: {name}{error}", file=sys.stderr)
+        sys.exit(EXIT_FAILED)
