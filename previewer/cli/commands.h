@@ -13,4 +13,6 @@ namespace bounce::cli {
 
 using Run = std::function<ExitCode()>;
 
+void add_compare(CLI::App& app, Run& run);
+
 }  // namespace bounce::cli

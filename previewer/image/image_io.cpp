@@ -18,6 +18,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "image/srgb.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -203,6 +204,14 @@ Image read_image(const fs::path& path) {
         for (size_t channel = 0; channel < 3; ++channel) {
             image.rgb[pixel * 3 + channel] = values[layout.rgb[channel]];
         }
+    }
+    return image;
+}
+
+Image read_scene_linear(const fs::path& path) {
+    Image image = read_image(path);
+    if (!is_scene_linear(path)) {
+        std::transform(image.rgb.begin(), image.rgb.end(), image.rgb.begin(), linear_from_srgb);
     }
     return image;
 }
