@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/glm.hpp>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "scene/scene.h"
 
@@ -29,7 +30,7 @@ struct DrawInstance {
 
 struct LightInstance {
     int node = k_none;
-    int light = k_none;  // into Pose::lights
+    int light = k_none;                // into Pose::lights
     glm::dmat4 world_from_light{1.0};  // looks along its -Z; keeps the node's scale
 };
 
@@ -38,10 +39,10 @@ struct LightInstance {
 struct Pose {
     double time_s = 0.0;
     std::vector<glm::dmat4> world_from_node;
-    std::vector<std::vector<float>> weights;           // per node; empty where its mesh has no targets
-    std::vector<std::vector<glm::dmat4>> skins;        // per skin, per joint: world_from_mesh
-    std::vector<DrawInstance> draws;                   // visible ones
-    std::vector<LightInstance> light_instances;        // visible ones
+    std::vector<std::vector<float>> weights;     // per node; empty where its mesh has no targets
+    std::vector<std::vector<glm::dmat4>> skins;  // per skin, per joint: world_from_mesh
+    std::vector<DrawInstance> draws;             // visible ones
+    std::vector<LightInstance> light_instances;  // visible ones
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Material> materials;
@@ -53,6 +54,10 @@ struct Pose {
 // once (what a file from Blender means; later channels win where two move the same thing).
 constexpr int k_all_animations = -1;
 [[nodiscard]] Pose evaluate_pose(const Scene& scene, double time_s, int animation = k_all_animations);
+
+// What to play where the user names no animation: every one of a file from Blender, whose animations
+// are one scene's; of any other file the first, because its clips are alternatives (walk, run, jump).
+[[nodiscard]] int default_animation(const Scene& scene);
 
 // World bounds of what the pose draws, from transformed corner boxes of primitives (skinned: of the
 // joints' boxes; morphed: with the targets' extremes). Conservative: never too small.

@@ -8,11 +8,12 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "scene/animation.h"
 
@@ -27,6 +28,24 @@ struct MorphTarget {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;
+};
+
+// An axis-aligned box, empty until grown.
+struct Box {
+    glm::vec3 low{3.4e38F};
+    glm::vec3 high{-3.4e38F};
+    [[nodiscard]] bool empty() const { return low.x > high.x; }
+    void grow(const glm::vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
+
+// Filled by the loader (primitive_bounds.h), so that bounds of a pose need not visit every vertex.
+struct PrimitiveBounds {
+    Box all;
+    std::vector<Box> targets;  // of each morph target's position differences
+    std::vector<Box> joints;   // of the vertices that joint i moves; may be shorter than Skin::joints
 };
 
 // A triangle list. Strips, fans and unindexed primitives are converted by the loader; points and lines
@@ -46,6 +65,7 @@ struct Primitive {
     std::vector<uint32_t> indices;  // three a triangle, each < positions.size()
     std::vector<MorphTarget> targets;
     int material = k_none;  // k_none: glTF's default material
+    PrimitiveBounds bounds;
 };
 
 struct Mesh {
@@ -100,7 +120,9 @@ struct Material {
     float roughness = 1.0F;
     float specular = 0.5F;  // Principled "Specular": F0 = 0.08 * specular
     DiffuseModel diffuse = DiffuseModel::lambert;
-    glm::vec3 emission{0.0F};  // radiance, W/(m^2 sr): factor times strength
+    // Radiance, W/(m^2 sr), is emission * emission_strength. In Scene these are the file's factor and
+    // strength, which may be animated apart; in Pose the product stands in emission and 1 in the other.
+    glm::vec3 emission{0.0F};
     float emission_strength = 1.0F;
     TextureRef base_color_texture;
     TextureRef metallic_roughness_texture;
@@ -185,20 +207,20 @@ struct Node {
     std::string name;
     int parent = k_none;
     std::vector<int> children;
-    Transform local;                    // used unless matrix is there
-    std::optional<glm::dmat4> matrix;   // a node given as a matrix is never animated
+    Transform local;                   // used unless matrix is there
+    std::optional<glm::dmat4> matrix;  // a node given as a matrix is never animated
     int mesh = k_none;
     int skin = k_none;
     int camera = k_none;
-    int light = k_none;  // into Scene::lights
-    bool visible = true;  // KHR_node_visibility; hides the children too
+    int light = k_none;                 // into Scene::lights
+    bool visible = true;                // KHR_node_visibility; hides the children too
     std::vector<float> weights;         // overrides Mesh::weights where not empty
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: node_from_instance; empty means one
 };
 
 struct Skin {
     std::string name;
-    std::vector<int> joints;  // nodes
+    std::vector<int> joints;                 // nodes
     std::vector<glm::mat4> joint_from_mesh;  // inverse bind matrices, one a joint
 };
 

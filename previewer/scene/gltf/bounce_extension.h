@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The vendor extension BOUNCE_scene (docs/bounce_scene.md), except what it adds to cameras and materials.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf/source.h"
+#include "scene/scene.h"
+
+namespace bounce::scene::gltf {
+
+// The lights of the extension's root object, in its order.
+[[nodiscard]] std::vector<Light> read_blender_lights(Source& source);
+
+// Frames, render and view settings, world, active camera, Blender's version and what was not exported;
+// or the defaults for a file without the extension. Needs everything else of the scene.
+void read_scene_settings(Source& source, Scene& scene);
+
+}  // namespace bounce::scene::gltf
