@@ -147,8 +147,10 @@ def key(owner, path, frames_and_values, interpolation="BEZIER"):
     for frame, value in frames_and_values:
         setattr(owner, path, value)
         owner.keyframe_insert(path, frame=frame)
-    for curve in owner.animation_data.action.fcurves:
-        if curve.data_path == path:
+    # Bones and shape keys keep their curves with the data-block that they are part of.
+    full_path = path if owner == owner.id_data else owner.path_from_id(path)
+    for curve in owner.id_data.animation_data.action.fcurves:
+        if curve.data_path == full_path:
             for point in curve.keyframe_points:
                 point.interpolation = interpolation
 

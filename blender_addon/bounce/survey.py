@@ -120,6 +120,9 @@ def instancing_issues(depsgraph, visibility):
         if not instance.is_instance or instance.parent is None:
             continue
         parent = instance.parent.original
+        if instance.object.original == parent:
+            # The mesh of a curve, text or metaball comes as an instance of itself.
+            continue
         if parent.as_pointer() in visibility.objects and not parent.is_instancer and parent.name not in named:
             named.add(parent.name)
             yield parent.name, "instances made by geometry nodes"
