@@ -7,7 +7,7 @@ from .visibility import animation_curves
 def is_stepped(owner, data_paths):
     """True where everything that animates these paths is curves of constant keys."""
     data = getattr(owner, "animation_data", None)
-    if data is None or any(True for _ in data.drivers) or data.nla_tracks:
+    if data is None or data.nla_tracks or any(driver.data_path in data_paths for driver in data.drivers):
         return False
     curves = [curve for curve in animation_curves(data) if curve.data_path in data_paths]
     return bool(curves) and all(
