@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
     app.add_flag("-v,--verbose", verbose, "Say more about what is being done");
 
     Run run_command;
+    add_render(app, run_command);
     add_compare(app, run_command);
 
     try {

@@ -13,6 +13,7 @@ namespace bounce::cli {
 
 using Run = std::function<ExitCode()>;
 
+void add_render(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 
 }  // namespace bounce::cli

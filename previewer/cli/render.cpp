@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/frame_list.h"
+#include "cli/frame_writer.h"
+#include "cli/render_options.h"
+#include "cli/stats.h"
+#include "core/atomic_file.h"
+#include "core/log.h"
+#include "core/progress.h"
+#include "gl/context.h"
+#include "renderer/renderer.h"
+#include "scene/gltf_loader.h"
+#include "scene/pose.h"
+
+namespace bounce::cli {
+namespace {
+
+struct Arguments {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string frames;
+    std::string stats;
+    int repeat = 1;
+    bool pass_times = true;
+    RenderOptions render;
+};
+
+std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& scene) {
+    const bool sequence = std::all_of(arguments.outputs.begin(), arguments.outputs.end(), has_frame_field);
+    std::vector<int> frames;
+    if (!arguments.frames.empty()) {
+        frames = parse_frames(arguments.frames);
+    } else if (sequence) {
+        frames = parse_frames(fmt::format("{}-{}", scene.frames.start, std::max(scene.frames.start, scene.frames.end)));
+    } else {
+        frames = {scene.frames.start};
+    }
+    if (frames.size() > 1 && !sequence) {
+        throw usage_error(fmt::format("{} frames would overwrite one file; put #### where the frame number belongs",
+                                      frames.size()));
+    }
+    return frames;
+}
+
+// Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
+FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const CameraView& camera,
+                         const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device) {
+    FrameStats stats;
+    const auto once = [&](gl::TimingMode mode, const Settings& with) {
+        glFinish();
+        const auto start = std::chrono::steady_clock::now();
+        FrameReport report = renderer.render(pose, camera, with, mode);
+        glFinish();
+        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return std::pair(std::move(report), ms);
+    };
+    if (arguments.repeat > 1) {
+        (void)once(gl::TimingMode::off, settings);  // warm-up
+    }
+    for (int i = 0; i < arguments.repeat; ++i) {
+        auto [report, ms] = once(gl::TimingMode::off, settings);
+        stats.report = std::move(report);
+        stats.all_wall_ms.push_back(ms);
+    }
+    if (!arguments.stats.empty() && arguments.pass_times) {
+        // Passes are timed in a rendering of their own, so that waiting for each does not slow the frame's time.
+        Settings counting = settings;
+        counting.count_gathered_pixels = true;
+        stats.report = once(device.software ? gl::TimingMode::finish : gl::TimingMode::query, counting).first;
+    }
+    return stats;
+}
+
+ExitCode render(const Arguments& arguments) {
+    const scene::LoadResult loaded = scene::load_gltf(arguments.scene);
+    for (const std::string& warning : loaded.warnings) {
+        log::warning("{}", warning);
+    }
+    const scene::Scene& scene = loaded.scene;
+    const Settings settings = arguments.render.settings(scene);
+    const int animation = arguments.render.animation_index(scene);
+    const std::vector<int> frames = choose_frames(arguments, scene);
+    for (const std::string& output : arguments.outputs) {
+        require_writable(frame_path(output, frames.front()));
+    }
+    if (!arguments.stats.empty()) {
+        require_writable(arguments.stats);
+    }
+
+    const gl::HeadlessContext context;
+    const gl::DeviceInfo device = gl::initialise_current_context();
+    log::debug("OpenGL {} on {}", device.version, device.renderer);
+    Renderer renderer(scene);
+    const FrameWriter writer(scene, settings);
+    StatsFile stats(arguments.scene, device, settings, arguments.render);
+    Progress progress("render", static_cast<int>(frames.size()));
+    for (const int frame : frames) {
+        const double time_s = scene::time_of_frame(scene.frames, frame);
+        const scene::Pose pose = scene::evaluate_pose(scene, time_s, animation);
+        const CameraView camera =
+            scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
+        FrameStats measured = measure_frame(renderer, pose, camera, settings, arguments, device);
+        measured.frame = frame;
+        measured.time_s = time_s;
+        const Image image = renderer.read_color();
+        for (const std::string& output : arguments.outputs) {
+            writer.write(frame_path(output, frame), image, pose.view, frame);
+        }
+        progress.step(fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
+        if (frame == frames.front()) {
+            for (const std::string& approximation : measured.report.approximations) {
+                log::debug("approximation: {}", approximation);
+            }
+        }
+        stats.add(std::move(measured));
+    }
+    if (!arguments.stats.empty()) {
+        stats.write(arguments.stats);
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("render", "Render frames to EXR (scene-linear), PNG and other files");
+    command->add_option("scene", arguments->scene, "Scene: .glb, .gltf or .blend")->required();
+    command
+        ->add_option("-o,--output", arguments->outputs,
+                     "Output file; #### stands for the frame number, .exr is scene-linear; may be given several times")
+        ->required();
+    command->add_option("--frames", arguments->frames,
+                        "Blender frame numbers: 1-48, 1,24 or 1-48x4; the scene's range by default");
+    command->add_option("--stats", arguments->stats, "Write times, passes and what was left out to this JSON file");
+    command->add_option("--repeat", arguments->repeat, "Render each frame N times after a warm-up; stats hold the median")
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("!--no-pass-times", arguments->pass_times, "With --stats: do not time the passes one by one");
+    arguments->render.add_to(*command);
+    command->callback([arguments, &run] { run = [arguments] { return render(*arguments); }; });
+}
+
+}  // namespace bounce::cli

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "cli/frame_list.h"
+#include "core/error.h"
+#include "scene/pose.h"
+
+namespace bounce::cli {
+namespace {
+
+const std::map<std::string, Technique> k_techniques = {{"direct", Technique::direct}, {"rsm", Technique::rsm}};
+
+const std::map<std::string, passes::RsmPattern> k_patterns = {
+    {"inverse-square", passes::RsmPattern::inverse_square},
+    {"uniform-radius", passes::RsmPattern::uniform_radius},
+    {"paper-literal", passes::RsmPattern::paper_literal}};
+
+const std::map<std::string, Show> k_shows = {{"shaded", Show::shaded},
+                                             {"direct", Show::direct},
+                                             {"indirect", Show::indirect},
+                                             {"rsm-depth", Show::rsm_depth},
+                                             {"rsm-position", Show::rsm_position},
+                                             {"rsm-normal", Show::rsm_normal},
+                                             {"rsm-flux", Show::rsm_flux},
+                                             {"interpolation", Show::interpolation}};
+
+template <typename T>
+CLI::IsMember one_of(const std::map<std::string, T>& names) {
+    return CLI::IsMember(&names);
+}
+
+// Largest count that keeps the pattern in a storage buffer and a sum in float's range.
+constexpr int k_most_samples = 1 << 20;
+
+}  // namespace
+
+void RenderOptions::add_to(CLI::App& command) {
+    command.add_option("--size", size, "Width and height in pixels, such as 640x360; the scene's own by default");
+    command.add_option("--camera", camera, "Camera node by name; the scene's active camera by default");
+    command.add_option("--animation", animation, "Animation clip by name");
+    command.add_option("--technique", technique, "Light transport: direct, or rsm for one bounce by reflective shadow maps")
+        ->check(one_of(k_techniques))
+        ->capture_default_str();
+    command.add_option("--rsm-samples", samples, "Pixel lights gathered at a pixel, over all lights; or all, for every texel")
+        ->capture_default_str();
+    command.add_option("--rsm-pattern", pattern, "How the gather's samples are spread")
+        ->check(one_of(k_patterns))
+        ->capture_default_str();
+    command
+        .add_option("--rsm-interpolation", interpolate,
+                    "on or off: gather at low resolution and interpolate where the surface allows it")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
+    command.add_option("--rsm-lowres", lowres, "The low-resolution gather takes one pixel in N x N")
+        ->check(CLI::Range(2, 64))
+        ->capture_default_str();
+    command.add_option("--rsm-size", rsm_size, "Side of a reflective shadow map in texels; half of it for a cube's faces")
+        ->check(CLI::Range(2, 4096))
+        ->capture_default_str();
+    command.add_option("--shadow-size", shadow_size, "Side of a shadow map in texels; half of it for a cube's faces")
+        ->check(CLI::Range(2, 16384))
+        ->capture_default_str();
+    command.add_option("--show", show, "What the picture shows")->check(one_of(k_shows))->capture_default_str();
+    command.add_option("--light", light, "Which light's map the rsm- layers show, from 0")->check(CLI::Range(0, 100000));
+}
+
+Settings RenderOptions::settings(const scene::Scene& scene) const {
+    Settings out;
+    out.width = scene.render.width;
+    out.height = scene.render.height;
+    if (!size.empty()) {
+        std::tie(out.width, out.height) = parse_size(size);
+    }
+    out.technique = k_techniques.at(technique);
+    out.rsm_pattern = k_patterns.at(pattern);
+    out.show = k_shows.at(show);
+    out.shown_light = light;
+    out.interpolate = interpolate;
+    out.lowres_step = lowres;
+    out.rsm_size = rsm_size;
+    out.shadow_size = shadow_size;
+    if (samples == "all") {
+        out.rsm_full_sum = true;
+        return out;
+    }
+    const auto [end, code] = std::from_chars(samples.data(), samples.data() + samples.size(), out.rsm_samples);
+    if (code != std::errc() || end != samples.data() + samples.size() || out.rsm_samples < 1 ||
+        out.rsm_samples > k_most_samples) {
+        throw usage_error(fmt::format("--rsm-samples is '{}'; give a number from 1 to {}, or all", samples, k_most_samples));
+    }
+    return out;
+}
+
+int RenderOptions::animation_index(const scene::Scene& scene) const {
+    if (animation.empty()) {
+        return scene::default_animation(scene);
+    }
+    const auto found = std::find_if(scene.animations.begin(), scene.animations.end(),
+                                    [&](const scene::Animation& clip) { return clip.name == animation; });
+    if (found == scene.animations.end()) {
+        throw usage_error(fmt::format("{} has no animation named {}; bounce info lists them", scene.name, animation));
+    }
+    return static_cast<int>(found - scene.animations.begin());
+}
+
+}  // namespace bounce::cli

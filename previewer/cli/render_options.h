@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "renderer/settings.h"
+#include "scene/scene.h"
+
+namespace bounce::cli {
+
+// Options that choose what the renderer does, shared by render and view.
+struct RenderOptions {
+    std::string size;
+    std::string camera;
+    std::string animation;
+    std::string technique = "rsm";
+    std::string samples = "224";
+    std::string pattern = "uniform-radius";
+    std::string show = "shaded";
+    bool interpolate = true;
+    int lowres = 8;
+    int rsm_size = 512;
+    int shadow_size = 2048;
+    int light = 0;
+
+    void add_to(CLI::App& command);
+    // The renderer's settings; the size is the scene's own where none was given. Throws usage_error.
+    [[nodiscard]] Settings settings(const scene::Scene& scene) const;
+    // Which animation to play (scene::k_all_animations for a file from Blender). Throws usage_error for
+    // an unknown name.
+    [[nodiscard]] int animation_index(const scene::Scene& scene) const;
+};
+
+}  // namespace bounce::cli

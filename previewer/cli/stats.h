@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "gl/context.h"
+#include "renderer/renderer.h"
+
+namespace bounce::cli {
+
+struct FrameStats {
+    int frame = 0;
+    double time_s = 0.0;
+    std::vector<double> all_wall_ms;  // every repetition, glFinish to glFinish, without per-pass timing
+    FrameReport report;
+    [[nodiscard]] double wall_ms() const;  // their median
+};
+
+// stats.json, schema bounce.stats/1 (docs/architecture.md).
+class StatsFile {
+  public:
+    StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings, const RenderOptions& options)
+        : scene_(std::move(scene)), device_(std::move(device)), settings_(settings), options_(options) {}
+    void add(FrameStats frame) { frames_.push_back(std::move(frame)); }
+    // Atomically. Throws output_error.
+    void write(const std::filesystem::path& path) const;
+
+  private:
+    std::string scene_;
+    gl::DeviceInfo device_;
+    Settings settings_;
+    RenderOptions options_;
+    std::vector<FrameStats> frames_;
+};
+
+}  // namespace bounce::cli

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_graph/frame_graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "gl/debug_output.h"
+
+namespace bounce {
+namespace {
+
+size_t at(int index) {
+    return static_cast<size_t>(index);
+}
+
+}  // namespace
+
+// ---- building ----
+
+int FrameGraph::add_version(int resource) {
+    const int version = dependencies_.add_resource(resources_[at(resource)].name);
+    resource_of_version_.push_back(resource);
+    return version;
+}
+
+int FrameGraph::declare(int pass, int version) {
+    if (version < 0) {
+        throw std::logic_error(fmt::format("pass {} declares a resource that was never made", passes_[at(pass)].name));
+    }
+    const int resource = resource_of_version_[at(version)];
+    passes_[at(pass)].resources.push_back(resource);
+    return resource;
+}
+
+TextureHandle FrameGraph::import_texture(const std::string& name, const gl::Texture& texture) {
+    Resource resource;
+    resource.name = name;
+    resource.desc = texture.desc();
+    resource.imported = &texture;
+    resources_.push_back(std::move(resource));
+    return {add_version(static_cast<int>(resources_.size()) - 1)};
+}
+
+TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc) {
+    FrameGraph::Resource resource;
+    resource.name = name;
+    resource.desc = desc;
+    graph_.resources_.push_back(std::move(resource));
+    const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
+    graph_.declare(pass_, version);
+    graph_.dependencies_.write(pass_, version);
+    return {version};
+}
+
+BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes) {
+    FrameGraph::Resource resource;
+    resource.name = name;
+    resource.is_texture = false;
+    resource.bytes = bytes;
+    graph_.resources_.push_back(std::move(resource));
+    const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
+    graph_.declare(pass_, version);
+    graph_.dependencies_.write(pass_, version);
+    return {version};
+}
+
+TextureHandle PassBuilder::read(TextureHandle handle) {
+    graph_.declare(pass_, handle.version);
+    graph_.dependencies_.read(pass_, handle.version);
+    return handle;
+}
+
+BufferHandle PassBuilder::read(BufferHandle handle) {
+    graph_.declare(pass_, handle.version);
+    graph_.dependencies_.read(pass_, handle.version);
+    return handle;
+}
+
+TextureHandle PassBuilder::write(TextureHandle handle) {
+    const int resource = graph_.declare(pass_, handle.version);
+    graph_.dependencies_.read(pass_, handle.version);
+    const int version = graph_.add_version(resource);
+    graph_.dependencies_.write(pass_, version);
+    if (graph_.resources_[at(resource)].imported != nullptr) {
+        side_effect();
+    }
+    return {version};
+}
+
+void PassBuilder::side_effect() {
+    graph_.dependencies_.keep(pass_);
+}
+
+// ---- running ----
+
+void FrameGraph::find_lifetimes(const std::vector<bool>& live) {
+    for (size_t pass = 0; pass < passes_.size(); ++pass) {
+        if (!live[pass]) {
+            continue;
+        }
+        for (const int index : passes_[pass].resources) {
+            Resource& resource = resources_[at(index)];
+            if (resource.first_use < 0) {
+                resource.first_use = static_cast<int>(pass);
+            }
+            resource.last_use = static_cast<int>(pass);
+        }
+    }
+}
+
+void FrameGraph::acquire(Resource& resource) {
+    if (!resource.is_texture) {
+        resource.buffer = pool_.acquire_buffer(resource.name, resource.bytes);
+    } else if (resource.imported == nullptr) {
+        resource.texture = pool_.acquire_texture(resource.name, resource.desc);
+    }
+}
+
+void FrameGraph::release(Resource& resource) {
+    if (resource.texture) {
+        pool_.release(std::move(resource.texture));
+    }
+    if (resource.buffer) {
+        pool_.release(std::move(resource.buffer));
+    }
+}
+
+void FrameGraph::execute(gl::PassTimer& timer) {
+    const std::vector<bool> live = dependencies_.live_passes();
+    find_lifetimes(live);
+    for (size_t pass = 0; pass < passes_.size(); ++pass) {
+        const std::string& name = passes_[pass].name;
+        if (!live[pass]) {
+            culled_.push_back(name);
+            continue;
+        }
+        for (Resource& resource : resources_) {
+            if (resource.first_use == static_cast<int>(pass)) {
+                acquire(resource);
+            }
+        }
+        {
+            const gl::DebugGroup group(name);
+            timer.begin(name);
+            passes_[pass].execute(PassResources(*this, static_cast<int>(pass)));
+            timer.end();
+        }
+        gl::throw_on_debug_error(name);
+        executed_.push_back(name);
+        for (Resource& resource : resources_) {
+            if (resource.last_use == static_cast<int>(pass)) {
+                release(resource);
+            }
+        }
+    }
+}
+
+namespace {
+
+[[noreturn]] void refuse_access(const std::string& pass, const std::string& resource) {
+    throw std::logic_error(fmt::format("pass {} uses {} without declaring it", pass, resource));
+}
+
+bool contains(const std::vector<int>& list, int value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+const gl::Texture& PassResources::texture(TextureHandle handle) const {
+    const FrameGraph::Pass& pass = graph_.passes_[at(pass_)];
+    if (!handle.valid()) {
+        refuse_access(pass.name, "an invalid handle");
+    }
+    const int index = graph_.resource_of_version_[at(handle.version)];
+    const FrameGraph::Resource& resource = graph_.resources_[at(index)];
+    if (!contains(pass.resources, index)) {
+        refuse_access(pass.name, resource.name);
+    }
+    return resource.imported != nullptr ? *resource.imported : resource.texture;
+}
+
+gl::Buffer& PassResources::buffer(BufferHandle handle) const {
+    const FrameGraph::Pass& pass = graph_.passes_[at(pass_)];
+    if (!handle.valid()) {
+        refuse_access(pass.name, "an invalid handle");
+    }
+    const int index = graph_.resource_of_version_[at(handle.version)];
+    if (!contains(pass.resources, index)) {
+        refuse_access(pass.name, graph_.resources_[at(index)].name);
+    }
+    return graph_.resources_[at(index)].buffer;
+}
+
+const gl::Framebuffer& PassResources::framebuffer(std::initializer_list<gl::Attachment> colors,
+                                                  gl::Attachment depth) const {
+    return graph_.pool_.framebuffer(graph_.passes_[at(pass_)].name, colors, depth);
+}
+
+}  // namespace bounce

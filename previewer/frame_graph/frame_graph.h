@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One frame as a graph of passes. Setup declares what a pass reads and writes; execute draws. Passes that
+// nothing reads are dropped; textures and buffers that the graph creates exist from their first to their
+// last use and come from a pool.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "frame_graph/dependency_graph.h"
+#include "frame_graph/transient_pool.h"
+#include "gl/pass_timer.h"
+
+namespace bounce {
+
+// One version of a resource. Writing gives a new handle; the old one stays readable only by passes that
+// were added before.
+template <typename T>
+struct Handle {
+    int version = -1;
+    [[nodiscard]] bool valid() const { return version >= 0; }
+};
+using TextureHandle = Handle<gl::Texture>;
+using BufferHandle = Handle<gl::Buffer>;
+
+class FrameGraph;
+
+// What an executing pass may touch: exactly what its setup declared.
+class PassResources {
+  public:
+    // Both throw std::logic_error, naming pass and resource, for an undeclared access.
+    [[nodiscard]] const gl::Texture& texture(TextureHandle handle) const;
+    [[nodiscard]] gl::Buffer& buffer(BufferHandle handle) const;
+    const gl::Framebuffer& framebuffer(std::initializer_list<gl::Attachment> colors,
+                                       gl::Attachment depth = {}) const;
+
+  private:
+    friend class FrameGraph;
+    PassResources(FrameGraph& graph, int pass) : graph_(graph), pass_(pass) {}
+    FrameGraph& graph_;
+    int pass_;
+};
+
+using Execute = std::function<void(const PassResources&)>;
+
+// Given to a pass's setup.
+class PassBuilder {
+  public:
+    [[nodiscard]] TextureHandle create_texture(const std::string& name, const gl::TextureDesc& desc);
+    [[nodiscard]] BufferHandle create_buffer(const std::string& name, size_t bytes);
+    TextureHandle read(TextureHandle handle);
+    BufferHandle read(BufferHandle handle);
+    // Changes what is there (reads and writes); returns the new version.
+    [[nodiscard]] TextureHandle write(TextureHandle handle);
+    // The pass runs even where nothing reads its results.
+    void side_effect();
+
+  private:
+    friend class FrameGraph;
+    PassBuilder(FrameGraph& graph, int pass) : graph_(graph), pass_(pass) {}
+    FrameGraph& graph_;
+    int pass_;
+};
+
+class FrameGraph {
+  public:
+    explicit FrameGraph(TransientPool& pool) : pool_(pool) {}
+
+    // A texture that outlives the frame. Writing it is a side effect.
+    TextureHandle import_texture(const std::string& name, const gl::Texture& texture);
+
+    // setup(PassBuilder&) declares and returns the function that draws.
+    template <typename Setup>
+    void add_pass(const std::string& name, Setup&& setup) {
+        const int pass = dependencies_.add_pass(name);
+        passes_.push_back({name, {}, {}});
+        PassBuilder builder(*this, pass);
+        passes_.back().execute = setup(builder);
+    }
+
+    // Runs the live passes in the order they were added; GL errors are thrown with the pass's name.
+    void execute(gl::PassTimer& timer);
+
+    // After execute(): names in order of execution, and of those culled.
+    [[nodiscard]] const std::vector<std::string>& executed() const { return executed_; }
+    [[nodiscard]] const std::vector<std::string>& culled() const { return culled_; }
+    [[nodiscard]] std::string to_dot() const { return dependencies_.to_dot(); }
+
+  private:
+    friend class PassBuilder;
+    friend class PassResources;
+
+    struct Resource {
+        std::string name;
+        bool is_texture = true;
+        gl::TextureDesc desc;
+        size_t bytes = 0;
+        const gl::Texture* imported = nullptr;
+        gl::Texture texture;
+        gl::Buffer buffer;
+        int first_use = -1;
+        int last_use = -1;
+    };
+    struct Pass {
+        std::string name;
+        Execute execute;
+        std::vector<int> resources;  // declared, by resource (not version)
+    };
+
+    int add_version(int resource);
+    int declare(int pass, int version);
+    void find_lifetimes(const std::vector<bool>& live);
+    void acquire(Resource& resource);
+    void release(Resource& resource);
+
+    TransientPool& pool_;
+    DependencyGraph dependencies_;
+    std::vector<Pass> passes_;
+    std::vector<Resource> resources_;
+    std::vector<int> resource_of_version_;
+    std::vector<std::string> executed_;
+    std::vector<std::string> culled_;
+};
+
+}  // namespace bounce

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace bounce::gl {
+
+struct DeviceInfo {
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    // Mesa's llvmpipe or softpipe: work runs inside the call that submits it, so timer queries
+    // measure nothing (see pass_timer.h).
+    bool software = false;
+};
+
+// A current OpenGL 4.5 core context without a window, through EGL's surfaceless platform, falling back to
+// EGL's default display. One a process. Throws Error(no_opengl) with a sentence that says what is there
+// instead.
+class HeadlessContext {
+  public:
+    HeadlessContext();
+    ~HeadlessContext();
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+    HeadlessContext(HeadlessContext&&) = delete;
+    HeadlessContext& operator=(HeadlessContext&&) = delete;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// What a context must have, whoever made it (EGL here, GLFW in the viewer): OpenGL 4.5 core. Sets the
+// conventions that all passes rely on (clip depth 0..1, debug output, seamless cube maps off) and returns
+// the device. Throws Error(no_opengl).
+DeviceInfo initialise_current_context();
+
+}  // namespace bounce::gl

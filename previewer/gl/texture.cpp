@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/texture.h"
+
+#include <algorithm>
+
+#include "gl/memory.h"
+
+namespace bounce::gl {
+
+size_t bytes_per_texel(GLenum format) {
+    switch (format) {
+        case GL_R8:
+            return 1;
+        case GL_R16F:
+            return 2;
+        case GL_RGBA8:
+        case GL_SRGB8_ALPHA8:
+        case GL_R32F:
+        case GL_R32UI:
+        case GL_DEPTH_COMPONENT32F:
+            return 4;
+        case GL_RGBA16:
+        case GL_RGBA16F:
+            return 8;
+        default:
+            return 16;
+    }
+}
+
+Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc) {
+    GLuint id = 0;
+    const bool array = desc.layers > 0;
+    glCreateTextures(array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &id);
+    object_ = Object<delete_texture>(id);
+    if (array) {
+        glTextureStorage3D(id, desc.levels, desc.format, desc.width, desc.height, desc.layers);
+    } else {
+        glTextureStorage2D(id, desc.levels, desc.format, desc.width, desc.height);
+    }
+    const GLint filter = desc.compare ? GL_LINEAR : GL_NEAREST;
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filter);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    if (desc.compare) {
+        glTextureParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        glTextureParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    }
+    glObjectLabel(GL_TEXTURE, id, static_cast<GLsizei>(name.size()), name.data());
+
+    size_t texels = 0;
+    for (int level = 0; level < desc.levels; ++level) {
+        texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
+                  static_cast<size_t>(std::max(desc.height >> level, 1));
+    }
+    note_allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
+}
+
+}  // namespace bounce::gl

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "gl/object.h"
+
+namespace bounce::gl {
+
+inline void delete_texture(GLuint id) {
+    glDeleteTextures(1, &id);
+}
+
+// What a texture is; equal descriptions are interchangeable in the transient pool.
+struct TextureDesc {
+    GLenum format = GL_RGBA32F;
+    int width = 1;
+    int height = 1;
+    int layers = 0;  // 0: a 2D texture; more: an array
+    int levels = 1;
+    // Depth formats looked up through a comparing sampler (sampler2DShadow).
+    bool compare = false;
+    friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
+};
+
+[[nodiscard]] size_t bytes_per_texel(GLenum format);
+
+// Immutable storage. Sampling defaults to nearest and clamp to edge; comparing textures are linear, with
+// reversed depth (lit where the reference is nearer, that is, greater or equal).
+class Texture {
+  public:
+    Texture() = default;
+    Texture(const std::string& name, const TextureDesc& desc);
+
+    [[nodiscard]] GLuint id() const { return object_.id(); }
+    [[nodiscard]] const TextureDesc& desc() const { return desc_; }
+    [[nodiscard]] explicit operator bool() const { return static_cast<bool>(object_); }
+    void bind(GLuint unit) const { glBindTextureUnit(unit, id()); }
+    void bind_image(GLuint unit, GLenum access) const {
+        glBindImageTexture(unit, id(), 0, desc_.layers > 0 ? GL_TRUE : GL_FALSE, 0, access, desc_.format);
+    }
+
+  private:
+    Object<delete_texture> object_;
+    TextureDesc desc_;
+};
+
+}  // namespace bounce::gl

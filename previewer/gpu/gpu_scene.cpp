@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/gpu_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace bounce::gpu {
+namespace {
+
+size_t at(int index) {
+    return static_cast<size_t>(index);
+}
+
+// Texture and data of a reference that names a texture without an image count as absent.
+bool usable(const scene::Scene& scene, const scene::TextureRef& ref) {
+    return ref.present() && scene.textures[at(ref.texture)].image != scene::k_none;
+}
+
+GpuMaterial pack(const scene::Material& material) {
+    GpuMaterial out{};
+    out.base_color = material.base_color;
+    out.emission = glm::vec4(material.emission * material.emission_strength, material.alpha_cutoff);
+    // A blended surface is drawn as a cut-out at one half; the loader's caller is told (renderer/frame_plan).
+    if (material.alpha_mode == scene::AlphaMode::blend) {
+        out.emission.a = 0.5F;
+    }
+    out.surface = {material.metallic, material.roughness, material.specular, material.normal_scale};
+    out.flags = {material.diffuse == scene::DiffuseModel::disney ? DIFFUSE_DISNEY : DIFFUSE_LAMBERT,
+                 material.unlit ? 1 : 0, 0, 0};
+    const scene::TextureRef* refs[4] = {&material.base_color_texture, &material.metallic_roughness_texture,
+                                        &material.normal_texture, &material.emission_texture};
+    for (int i = 0; i < 4; ++i) {
+        const glm::mat3& m = refs[i]->uv_transform;
+        out.uv[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(refs[i]->uv_set)};
+        out.uv[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0.0F};
+    }
+    return out;
+}
+
+DrawFeatures features_of(const scene::Scene& scene, const scene::Material& material,
+                         const scene::Primitive& primitive) {
+    DrawFeatures features;
+    const auto textured = [&](const scene::TextureRef& ref) {
+        return usable(scene, ref) && !(ref.uv_set == 0 ? primitive.uv0 : primitive.uv1).empty();
+    };
+    features.base_color_texture = textured(material.base_color_texture);
+    features.metallic_roughness_texture = textured(material.metallic_roughness_texture);
+    features.normal_texture = textured(material.normal_texture) && !primitive.tangents.empty();
+    features.emission = material.emission * material.emission_strength != glm::vec3(0.0F) || material.unlit;
+    features.emission_texture = features.emission && textured(material.emission_texture);
+    features.alpha_test = material.alpha_mode != scene::AlphaMode::opaque;
+    features.vertex_color = !primitive.colors.empty();
+    return features;
+}
+
+// Rows of the affine matrix, and of the cofactor matrix of its linear part, which turns normals right
+// under any scale, singular and mirroring ones included (it is det * inverse transpose).
+GpuDraw pack_draw(const glm::dmat4& m, int material) {
+    GpuDraw draw{};
+    for (int row = 0; row < 3; ++row) {
+        draw.render_from_model[row] = glm::vec4(glm::dvec4(m[0][row], m[1][row], m[2][row], m[3][row]));
+    }
+    const glm::dvec3 x(m[0]);
+    const glm::dvec3 y(m[1]);
+    const glm::dvec3 z(m[2]);
+    // Normalised so that tiny and huge scales stay in float's range; only the direction counts.
+    const double largest = std::max({glm::length(x), glm::length(y), glm::length(z), 1e-300});
+    const glm::dmat3 cofactor(glm::cross(y / largest, z / largest), glm::cross(z / largest, x / largest),
+                              glm::cross(x / largest, y / largest));
+    const double sign = glm::dot(glm::cross(x / largest, y / largest), z / largest) < 0.0 ? -1.0 : 1.0;
+    for (int row = 0; row < 3; ++row) {
+        draw.normal_from_model[row] = glm::vec4(
+            glm::dvec4(sign * cofactor[0][row], sign * cofactor[1][row], sign * cofactor[2][row], 0.0));
+    }
+    draw.ids = {material, 0, 0, 0};
+    return draw;
+}
+
+bool same_material(const scene::Material& a, const scene::Material& b) {
+    return a.base_color == b.base_color && a.metallic == b.metallic && a.roughness == b.roughness &&
+           a.emission == b.emission && a.emission_strength == b.emission_strength;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const scene::Scene& scene) : scene_(scene), vertices_(scene), textures_(scene) {
+    const scene::Pose first = scene::evaluate_pose(scene, 0.0);
+    space_ = RenderSpace::around(scene::world_bounds(scene, first));
+}
+
+void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
+    const bool unchanged = current_materials_.size() == materials.size() && materials_ &&
+                           std::equal(materials.begin(), materials.end(), current_materials_.begin(), same_material);
+    if (unchanged) {
+        return;
+    }
+    std::vector<GpuMaterial> packed;
+    for (const scene::Material& material : materials) {
+        packed.push_back(pack(material));
+    }
+    packed.push_back(pack(scene::Material{}));  // glTF's default, for primitives that name none
+    if (materials_.bytes() != packed.size() * sizeof(GpuMaterial)) {
+        materials_ = gl::Buffer("materials", packed.size() * sizeof(GpuMaterial), GL_DYNAMIC_STORAGE_BIT);
+    }
+    materials_.update(std::span<const GpuMaterial>(packed));
+    current_materials_ = materials;
+}
+
+void GpuScene::set_pose(const scene::Pose& pose) {
+    bounds_ = scene::world_bounds(scene_, pose);
+    upload_materials(pose.materials);
+    vertices_.set_pose(pose, space_);
+    build_batches(pose);
+}
+
+void GpuScene::build_batches(const scene::Pose& pose) {
+    const glm::dmat4 render_from_world = space_.render_from_world();
+    static const scene::Material default_material;
+    // Draws that share every state stand together, so that they become one instanced call.
+    struct Item {
+        DrawBatch batch;
+        GpuDraw draw;
+    };
+    std::vector<Item> items;
+    has_emission_ = has_disney_ = has_specular_ = false;
+    triangles_ = 0;
+    for (const scene::DrawInstance& instance : pose.draws) {
+        const scene::Mesh& mesh = scene_.meshes[at(instance.mesh)];
+        const bool deformed = vertices_.node_deforms(instance.node);
+        for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const scene::Primitive& primitive = mesh.primitives[p];
+            if (primitive.indices.empty()) {
+                continue;
+            }
+            const bool has_material = primitive.material != scene::k_none;
+            const scene::Material& material =
+                has_material ? pose.materials[at(primitive.material)] : default_material;
+            const int material_index =
+                has_material ? primitive.material : static_cast<int>(pose.materials.size());
+            const bool skinned = deformed && instance.skin != scene::k_none && !primitive.joints.empty();
+            const glm::dmat4 transform =
+                skinned ? glm::dmat4(1.0) : render_from_world * instance.world_from_model;
+            const PrimitiveRange range = deformed
+                                             ? vertices_.deformed_range(instance.node, static_cast<int>(p))
+                                             : vertices_.range(instance.mesh, static_cast<int>(p));
+            Item item;
+            item.batch.features = features_of(scene_, material, primitive);
+            item.batch.cull_back_faces = !material.double_sided && !scene_.from_blender;
+            item.batch.mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
+            item.batch.material = material_index;
+            item.batch.first_index = range.first_index;
+            item.batch.index_count = range.index_count;
+            item.batch.base_vertex = range.base_vertex;
+            item.draw = pack_draw(transform, material_index);
+            items.push_back(item);
+            has_emission_ |= item.batch.features.emission;
+            has_disney_ |= material.diffuse == scene::DiffuseModel::disney;
+            has_specular_ |= material.specular > 0.0F || material.metallic > 0.0F;
+            triangles_ += primitive.indices.size() / 3;
+        }
+    }
+    const auto key = [](const Item& item) {
+        const DrawBatch& b = item.batch;
+        return std::tuple(b.features, b.cull_back_faces, b.mirrored, b.material, b.first_index, b.base_vertex);
+    };
+    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return key(a) < key(b); });
+
+    batches_.clear();
+    std::vector<GpuDraw> draws;
+    for (size_t i = 0; i < items.size(); ++i) {
+        if (i == 0 || key(items[i]) != key(items[i - 1])) {
+            batches_.push_back(items[i].batch);
+            batches_.back().first_draw = static_cast<uint32_t>(i);
+        }
+        ++batches_.back().draw_count;
+        draws.push_back(items[i].draw);
+    }
+    if (draws.size() > draw_capacity_ || !draws_) {
+        draw_capacity_ = std::max<size_t>(draws.size(), 1);
+        draws_ = gl::Buffer("draws", draw_capacity_ * sizeof(GpuDraw), GL_DYNAMIC_STORAGE_BIT);
+        std::vector<uint32_t> ids(draw_capacity_);
+        std::iota(ids.begin(), ids.end(), 0U);
+        draw_ids_ = gl::Buffer::of("draw ids", std::span<const uint32_t>(ids));
+        vertices_.set_draw_ids(draw_ids_);
+    }
+    draws_.update(std::span<const GpuDraw>(draws));
+}
+
+void GpuScene::bind() const {
+    vertices_.bind_vertex_array();
+    draws_.bind_storage(SSBO_DRAWS);
+    materials_.bind_storage(SSBO_MATERIALS);
+}
+
+void GpuScene::bind_material(const DrawBatch& batch) const {
+    if (batch.material >= static_cast<int>(scene_.materials.size())) {
+        return;
+    }
+    const scene::Material& material = scene_.materials[at(batch.material)];
+    if (batch.features.base_color_texture) textures_.bind(TEX_BASE_COLOR, material.base_color_texture, true);
+    if (batch.features.metallic_roughness_texture) {
+        textures_.bind(TEX_METALLIC_ROUGHNESS, material.metallic_roughness_texture, false);
+    }
+    if (batch.features.normal_texture) textures_.bind(TEX_NORMAL, material.normal_texture, false);
+    if (batch.features.emission_texture) textures_.bind(TEX_EMISSION, material.emission_texture, true);
+}
+
+void GpuScene::draw(const DrawBatch& batch) {
+    const auto* offset = reinterpret_cast<const void*>(  // NOLINT: OpenGL takes the offset as a pointer
+        static_cast<uintptr_t>(batch.first_index) * sizeof(uint32_t));
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(batch.index_count),
+                                                  GL_UNSIGNED_INT, offset,
+                                                  static_cast<GLsizei>(batch.draw_count), batch.base_vertex,
+                                                  batch.first_draw);
+}
+
+}  // namespace bounce::gpu

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/texture.h"
+#include "gpu/material_textures.h"
+#include "gpu/render_space.h"
+#include "gpu/shared_types.h"
+#include "gpu/vertex_store.h"
+#include "scene/pose.h"
+#include "scene/scene.h"
+
+namespace bounce::gpu {
+
+// What a batch of draws needs from its shader: absent features are compiled out.
+struct DrawFeatures {
+    bool base_color_texture = false;
+    bool metallic_roughness_texture = false;
+    bool normal_texture = false;
+    bool emission_texture = false;
+    bool emission = false;
+    bool alpha_test = false;
+    bool vertex_color = false;
+    friend bool operator==(const DrawFeatures&, const DrawFeatures&) = default;
+    friend auto operator<=>(const DrawFeatures&, const DrawFeatures&) = default;
+};
+
+// Instances of one primitive that share every state: one draw call.
+struct DrawBatch {
+    DrawFeatures features;
+    bool cull_back_faces = false;
+    bool mirrored = false;  // the transform turns front faces into back faces
+    int material = 0;       // into GpuScene::materials
+    uint32_t first_index = 0;
+    uint32_t index_count = 0;
+    int base_vertex = 0;
+    uint32_t first_draw = 0;
+    uint32_t draw_count = 0;
+};
+
+// The scene on the GPU: geometry, images and materials are uploaded once; set_pose uploads what a moment
+// changes (transforms, materials that are animated, joints, weights).
+class GpuScene {
+  public:
+    explicit GpuScene(const scene::Scene& scene);
+
+    void set_pose(const scene::Pose& pose);
+
+    [[nodiscard]] const scene::Scene& source() const { return scene_; }
+    [[nodiscard]] const RenderSpace& space() const { return space_; }
+    // Bounds of the pose, world space.
+    [[nodiscard]] const scene::Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] const std::vector<DrawBatch>& batches() const { return batches_; }
+    [[nodiscard]] bool deforms() const { return !vertices_.jobs().empty(); }
+    [[nodiscard]] bool has_emission() const { return has_emission_; }
+    [[nodiscard]] bool has_disney_diffuse() const { return has_disney_; }
+    [[nodiscard]] bool has_specular() const { return has_specular_; }
+    [[nodiscard]] size_t triangles_drawn() const { return triangles_; }
+    [[nodiscard]] const VertexStore& vertices() const { return vertices_; }
+
+    // Binds vertex arrays, draw and material buffers; then draw() with a program in use.
+    void bind() const;
+    void bind_material(const DrawBatch& batch) const;
+    static void draw(const DrawBatch& batch);
+
+  private:
+    void upload_materials(const std::vector<scene::Material>& materials);
+    void build_batches(const scene::Pose& pose);
+
+    const scene::Scene& scene_;
+    RenderSpace space_;
+    VertexStore vertices_;
+    MaterialTextures textures_;
+    std::vector<DrawBatch> batches_;
+    gl::Buffer draws_;
+    gl::Buffer draw_ids_;
+    gl::Buffer materials_;
+    size_t draw_capacity_ = 0;
+    std::vector<scene::Material> current_materials_;
+    scene::Bounds bounds_;
+    bool has_emission_ = false;
+    bool has_disney_ = false;
+    bool has_specular_ = false;
+    size_t triangles_ = 0;
+};
+
+}  // namespace bounce::gpu

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/object.h"
+#include "gpu/render_space.h"
+#include "gpu/shared_types.h"
+#include "scene/pose.h"
+#include "scene/scene.h"
+
+namespace bounce::gpu {
+
+inline void delete_vertex_array(GLuint id) {
+    glDeleteVertexArrays(1, &id);
+}
+
+// Where a primitive's vertices and indices lie.
+struct PrimitiveRange {
+    int base_vertex = 0;
+    uint32_t first_index = 0;
+    uint32_t index_count = 0;
+};
+
+// All geometry in one vertex array: a static region with every primitive once, and behind it a region that
+// the deform pass rewrites each frame, with one copy for each skinned or morphing draw. Streams that no
+// primitive has are not allocated.
+class VertexStore {
+  public:
+    explicit VertexStore(const scene::Scene& scene);
+
+    // True where a node's mesh is skinned or morphs: its draws use deformed_range.
+    [[nodiscard]] bool node_deforms(int node) const { return !deformed_[static_cast<size_t>(node)].empty(); }
+    [[nodiscard]] PrimitiveRange range(int mesh, int primitive) const {
+        return ranges_[static_cast<size_t>(mesh)][static_cast<size_t>(primitive)];
+    }
+    [[nodiscard]] PrimitiveRange deformed_range(int node, int primitive) const {
+        return deformed_[static_cast<size_t>(node)][static_cast<size_t>(primitive)];
+    }
+    // Uploads joint matrices and morph weights of the pose.
+    void set_pose(const scene::Pose& pose, const RenderSpace& space);
+
+    [[nodiscard]] const std::vector<DeformJob>& jobs() const { return jobs_; }
+    void bind_vertex_array() const { glBindVertexArray(vertex_array_.id()); }
+    // Instance attribute with the draw's index, from 0 up to the count it was made for.
+    void set_draw_ids(const gl::Buffer& ids) const;
+    void bind_for_deform() const;
+    [[nodiscard]] bool has_tangents() const { return static_cast<bool>(tangents_); }
+
+  private:
+    struct Builder;
+    void add_deformed_nodes(const scene::Scene& scene, Builder& build);
+    void create(Builder& build);
+
+    std::vector<std::vector<PrimitiveRange>> ranges_;
+    std::vector<std::vector<PrimitiveRange>> deformed_;  // per node; empty where rigid
+    std::vector<DeformJob> jobs_;
+    std::vector<int> job_nodes_;
+    std::vector<int> skin_first_matrix_;
+    gl::Object<delete_vertex_array> vertex_array_;
+    gl::Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_;
+    gl::Buffer jobs_buffer_, influences_, skin_matrices_, deltas_, weights_;
+};
+
+}  // namespace bounce::gpu

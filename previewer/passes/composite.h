@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "passes/gbuffer.h"
+
+namespace bounce::passes {
+
+struct CompositeInputs {
+    GBuffer gbuffer;
+    TextureHandle direct;      // invalid: none
+    TextureHandle irradiance;  // invalid: none
+    bool world_light = false;
+    bool emission = false;
+};
+
+// Scene-linear radiance times film exposure into `target`, an imported RGBA32F texture.
+TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
+                            TextureHandle target);
+
+}  // namespace bounce::passes

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/gbuffer.h"
+
+#include <array>
+
+namespace bounce::passes {
+
+GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera) {
+    GBuffer out;
+    graph.add_pass("gbuffer", [&](PassBuilder& builder) {
+        const auto target = [&](const char* name, GLenum format) {
+            return builder.create_texture(name, {.format = format, .width = context.width, .height = context.height});
+        };
+        out.depth = target("depth", GL_DEPTH_COMPONENT32F);
+        out.base_color_roughness = target("base colour, roughness", GL_RGBA16F);
+        out.normal_metallic_specular = target("normal, metallic, specular", GL_RGBA16);
+        if (context.scene.has_emission()) {
+            out.emission = target("emission", GL_RGBA32F);
+        }
+        return [context, camera, out](const PassResources& resources) {
+            const gl::Attachment color{&resources.texture(out.base_color_roughness)};
+            const gl::Attachment normal{&resources.texture(out.normal_metallic_specular)};
+            const gl::Attachment depth{&resources.texture(out.depth)};
+            const bool emission = out.emission.valid();
+            const gl::Framebuffer& framebuffer =
+                emission ? resources.framebuffer({color, normal, {&resources.texture(out.emission)}}, depth)
+                         : resources.framebuffer({color, normal}, depth);
+            framebuffer.bind();
+            constexpr std::array<float, 4> black{};
+            const float far_depth = 0.0F;
+            glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far_depth);
+            if (emission) {
+                glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 2, black.data());
+            }
+            draw_scene(context, camera, emission ? DrawKind::surface_with_emission : DrawKind::surface,
+                       "passes/gbuffer.frag", {});
+        };
+    });
+    return out;
+}
+
+void read_gbuffer(PassBuilder& builder, const GBuffer& gbuffer) {
+    builder.read(gbuffer.depth);
+    builder.read(gbuffer.base_color_roughness);
+    builder.read(gbuffer.normal_metallic_specular);
+}
+
+void bind_gbuffer(const PassResources& resources, const GBuffer& gbuffer) {
+    resources.texture(gbuffer.depth).bind(TEX_DEPTH);
+    resources.texture(gbuffer.base_color_roughness).bind(TEX_GBUFFER0);
+    resources.texture(gbuffer.normal_metallic_specular).bind(TEX_GBUFFER1);
+}
+
+}  // namespace bounce::passes

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "passes/rsm_gather.h"
+
+namespace bounce::passes {
+
+// Pictures of what is inside, for people.
+enum class Layer { rsm_depth = 0, rsm_position = 1, rsm_normal = 2, rsm_flux = 3 };
+
+// A light's RSM, fitted into the picture; a cube's faces side by side.
+void add_rsm_layer_view(FrameGraph& graph, const PassContext& context, const RsmSource& source, Layer layer,
+                        TextureHandle target);
+
+// Red where the indirect light was evaluated in full, grey where it was interpolated.
+void add_interpolation_view(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                            TextureHandle irradiance, TextureHandle target);
+
+}  // namespace bounce::passes

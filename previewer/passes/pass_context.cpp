@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/pass_context.h"
+
+namespace bounce::passes {
+namespace {
+
+gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind) {
+    gl::Defines defines;
+    const auto define_if = [&](bool condition, const char* name) {
+        if (condition) {
+            defines[name] = "1";
+        }
+    };
+    const bool depth = kind == DrawKind::depth;
+    define_if(features.alpha_test, "ALPHA_TEST");
+    define_if(depth, "DEPTH_ONLY");
+    if (depth && !features.alpha_test) {
+        return defines;
+    }
+    define_if(features.base_color_texture, "BASE_COLOR_TEXTURE");
+    define_if(features.vertex_color, "VERTEX_COLOR");
+    if (depth) {
+        return defines;
+    }
+    define_if(features.metallic_roughness_texture, "METALLIC_ROUGHNESS_TEXTURE");
+    define_if(features.normal_texture, "NORMAL_TEXTURE");
+    define_if(kind == DrawKind::surface_with_emission && features.emission, "EMISSION");
+    define_if(kind == DrawKind::surface_with_emission && features.emission_texture, "EMISSION_TEXTURE");
+    define_if(kind == DrawKind::surface_with_emission, "WRITE_EMISSION");
+    define_if(kind == DrawKind::light_surface, "LIGHT_VIEW");
+    return defines;
+}
+
+}  // namespace
+
+gl::Defines light_defines(const LightPass& light) {
+    return {{"MAP_KIND", std::to_string(light.map_kind)}, {"PROFILE", std::to_string(light.profile)}};
+}
+
+void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
+                const gl::Defines& defines) {
+    context.scene.bind();
+    context.uniforms.bind(UBO_VIEW, view.uniforms);
+    glEnable(GL_DEPTH_TEST);
+    // A light inside its own near plane must not see through what stands there.
+    if (kind == DrawKind::depth || kind == DrawKind::light_surface) {
+        glEnable(GL_DEPTH_CLAMP);
+    }
+    for (const gpu::DrawBatch& batch : context.scene.batches()) {
+        gl::Defines all = batch_defines(batch.features, kind);
+        all.insert(defines.begin(), defines.end());
+        context.programs.raster("passes/geometry.vert", fragment, all).use();
+        context.scene.bind_material(batch);
+        glFrontFace(batch.mirrored != view.mirrored ? GL_CW : GL_CCW);
+        if (batch.cull_back_faces) {
+            glEnable(GL_CULL_FACE);
+        } else {
+            glDisable(GL_CULL_FACE);
+        }
+        gpu::GpuScene::draw(batch);
+    }
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void dispatch_2d(int width, int height) {
+    glDispatchCompute(static_cast<GLuint>((width + GROUP_2D - 1) / GROUP_2D),
+                      static_cast<GLuint>((height + GROUP_2D - 1) / GROUP_2D), 1);
+}
+
+void finish_writes() {
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+}  // namespace bounce::passes

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frame_graph/frame_graph.h"
+#include "gl/program.h"
+#include "gpu/gpu_scene.h"
+#include "gpu/uniform_arena.h"
+
+namespace bounce::passes {
+
+// One rasterised view of the scene.
+struct View {
+    gpu::UniformArena::Slot uniforms;  // ViewUniforms
+    bool mirrored = false;             // the projection turns front faces into back faces
+};
+
+// One light of the frame, ready to draw.
+struct LightPass {
+    std::string name;
+    int map_kind = 0;  // MAP_*
+    int profile = 0;   // PROFILE_*
+    gpu::UniformArena::Slot uniforms;
+    std::vector<View> faces;  // one, or six for a cube
+    int rsm_size = 0;
+    int shadow_size = 0;
+    bool casts_shadow = true;
+    // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.
+    double flux_w = 0.0;
+};
+
+// What every pass needs; valid for the frame.
+struct PassContext {
+    gl::ProgramCache& programs;
+    const gpu::GpuScene& scene;
+    const gpu::UniformArena& uniforms;
+    gpu::UniformArena::Slot frame;  // FrameUniforms
+    int width = 0;
+    int height = 0;
+};
+
+// MAP_KIND and PROFILE of a light, compiled in.
+[[nodiscard]] gl::Defines light_defines(const LightPass& light);
+
+// Draws every batch of the scene into the bound framebuffer. Programs are chosen by each batch's features;
+// depth_only batches take their fragment shader only where an alpha test needs it.
+enum class DrawKind { surface, surface_with_emission, light_surface, depth };
+void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
+                const gl::Defines& defines);
+
+// Work groups that cover a picture, and the barrier after which everything written is seen.
+void dispatch_2d(int width, int height);
+void finish_writes();
+
+}  // namespace bounce::passes

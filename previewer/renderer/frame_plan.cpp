@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/frame_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bounce {
+namespace {
+
+size_t at(int index) {
+    return static_cast<size_t>(index);
+}
+
+bool is_dark(const glm::vec3& color) {
+    return !(std::max({color.r, color.g, color.b}) > 0.0F);
+}
+
+// Radiant power or irradiance is nothing.
+bool sends_light(const scene::Light& light) {
+    const float strength = light.type == scene::LightType::sun ? light.irradiance_w_m2 : light.power_w;
+    return strength > 0.0F && !is_dark(light.color);
+}
+
+bool deforms(const scene::Scene& scene, const scene::DrawInstance& draw) {
+    const scene::Mesh& mesh = scene.meshes[at(draw.mesh)];
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const scene::Primitive& primitive) {
+        return !primitive.targets.empty() || (draw.skin != scene::k_none && !primitive.joints.empty());
+    });
+}
+
+// Calls visit(material) for each material that a visible draw uses.
+template <typename Visit>
+void for_each_material(const scene::Scene& scene, const scene::Pose& pose, Visit&& visit) {
+    for (const scene::DrawInstance& draw : pose.draws) {
+        for (const scene::Primitive& primitive : scene.meshes[at(draw.mesh)].primitives) {
+            if (primitive.material != scene::k_none) {
+                visit(pose.materials[at(primitive.material)]);
+            }
+        }
+    }
+}
+
+void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& plan) {
+    for (size_t i = 0; i < pose.light_instances.size(); ++i) {
+        const scene::Light& light = pose.lights[at(pose.light_instances[i].light)];
+        if (!sends_light(light)) {
+            plan.left_out.push_back({"light: " + light.name, "it sends no light in this frame"});
+            continue;
+        }
+        plan.lights.push_back(static_cast<int>(i));
+        plan.shadows.push_back(light.cast_shadow && plan.direct);
+        if (plan.direct && !light.cast_shadow) {
+            plan.left_out.push_back({"shadow map: " + light.name, "the light casts no shadow"});
+        }
+        const bool soft = light.radius_m > 0.0F || light.angle_rad > 0.0F;
+        if (light.type == scene::LightType::area) {
+            plan.approximations.push_back(
+                fmt::format("area light {}: its shadow and bounce are taken from its centre", light.name));
+        } else if (soft && plan.direct) {
+            plan.approximations.push_back(fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
+        }
+    }
+    if (settings.technique == Technique::rsm && plan.lights.empty()) {
+        plan.left_out.push_back({"rsm", "no light sends light"});
+    }
+}
+
+void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePlan& plan) {
+    bool blend = false;
+    bool reflects = false;
+    for_each_material(scene, pose, [&](const scene::Material& material) {
+        plan.emission |= material.unlit || !is_dark(material.emission * material.emission_strength);
+        blend |= material.alpha_mode == scene::AlphaMode::blend;
+        reflects |= !is_dark(glm::vec3(material.base_color) * (1.0F - material.metallic)) && !material.unlit;
+    });
+    // A primitive without a material is white metal in glTF: no diffuse bounce either.
+    if (plan.indirect && !reflects) {
+        plan.indirect = false;
+        plan.left_out.push_back({"rsm", "no surface reflects diffusely"});
+    }
+    if (blend) {
+        plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
+    }
+    if (plan.emission) {
+        plan.approximations.emplace_back("emissive surfaces are seen but light nothing");
+    } else {
+        plan.left_out.push_back({"emission", "no visible surface emits"});
+    }
+}
+
+}  // namespace
+
+FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings) {
+    FramePlan plan;
+    plan.direct = settings.show == Show::shaded || settings.show == Show::direct;
+    plan.indirect = settings.technique == Technique::rsm && settings.show != Show::direct;
+    if (settings.technique == Technique::direct) {
+        plan.left_out.push_back({"rsm", "direct light only was asked for"});
+    }
+    plan.deform = std::any_of(pose.draws.begin(), pose.draws.end(),
+                              [&](const scene::DrawInstance& draw) { return deforms(scene, draw); });
+    if (!plan.deform) {
+        plan.left_out.push_back({"deform", "no visible mesh is skinned or morphs"});
+    }
+    plan_lights(pose, settings, plan);
+    plan.indirect = plan.indirect && !plan.lights.empty();
+    plan.direct = plan.direct && !plan.lights.empty();
+    plan_materials(scene, pose, plan);
+    plan.interpolate = plan.indirect && settings.interpolate && settings.lowres_step > 1 && !settings.rsm_full_sum;
+    if (plan.indirect && !plan.interpolate) {
+        plan.left_out.push_back({"rsm interpolate", "every pixel is evaluated in full, as asked for"});
+    }
+    plan.world_light = !is_dark(pose.world.color * pose.world.strength) && settings.show == Show::shaded;
+    if (plan.world_light) {
+        plan.approximations.emplace_back("the world's light is not occluded");
+    } else if (settings.show == Show::shaded) {
+        plan.left_out.push_back({"world light", "the world is black"});
+    }
+    return plan;
+}
+
+}  // namespace bounce

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/settings.h"
+#include "scene/pose.h"
+
+namespace bounce {
+
+struct LeftOut {
+    std::string pass;
+    std::string reason;
+};
+
+// What this frame does, decided without OpenGL from what the pose holds and what the settings ask for.
+struct FramePlan {
+    bool deform = false;
+    bool direct = false;
+    bool indirect = false;
+    bool interpolate = false;
+    bool emission = false;
+    bool world_light = false;
+    std::vector<int> lights;         // into Pose::light_instances, those that send light
+    std::vector<bool> shadows;       // per entry of `lights`
+    std::vector<LeftOut> left_out;   // and why
+    std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
+};
+
+[[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings);
+
+}  // namespace bounce

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "passes/pass_context.h"
+#include "passes/rsm_gather.h"
+#include "renderer/frame_plan.h"
+#include "renderer/settings.h"
+
+namespace bounce {
+
+struct PipelineInputs {
+    const FramePlan& plan;
+    const Settings& settings;
+    passes::PassContext context;
+    passes::View camera;
+    std::vector<passes::LightPass> lights;               // parallel to plan.lights
+    std::vector<gpu::UniformArena::Slot> gather_frames;  // FrameUniforms with each light's sample count
+    std::vector<const gl::Buffer*> patterns;             // each light's
+    TextureHandle target;
+    int* gathered_pixels = nullptr;  // filled where settings ask for it
+};
+
+// Wires the passes of one frame. The only place that does: reading it top to bottom is reading the frame.
+void build_pipeline(FrameGraph& graph, const PipelineInputs& inputs);
+
+}  // namespace bounce

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "passes/deform.h"
+#include "renderer/light_setup.h"
+#include "renderer/pipeline.h"
+
+namespace bounce {
+namespace {
+
+gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Scene& scene, const scene::Pose& pose,
+                                  const Settings& settings, int samples) {
+    gpu::FrameUniforms frame{};
+    frame.render_from_clip = glm::mat4(camera.render_from_clip);
+    frame.camera_position = glm::vec4(glm::vec3(camera.position), camera.perspective ? 1.0F : 0.0F);
+    frame.camera_forward = glm::vec4(glm::vec3(camera.forward), 0.0F);
+    frame.world_radiance = glm::vec4(pose.world.color * pose.world.strength, 0.0F);
+    frame.size = {settings.width, settings.height, settings.lowres_step, samples};
+    frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)), settings.interpolation_plane,
+                           static_cast<float>(camera.pixel_radius), settings.interpolation_distance};
+    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, 0.0F};
+    return frame;
+}
+
+}  // namespace
+
+Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
+Renderer::~Renderer() = default;
+
+FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
+                             gl::TimingMode timing) {
+    FrameReport report;
+    const FramePlan plan = plan_frame(scene_, pose, settings);
+    report.left_out = plan.left_out;
+    report.approximations = plan.approximations;
+    gpu_scene_.set_pose(pose);
+    report.triangles = gpu_scene_.triangles_drawn();
+
+    const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
+    if (color_.desc() != target || !color_) {
+        pool_.clear();
+        color_ = gl::Texture("color", target);
+    }
+
+    // Everything the passes read from uniform blocks, uploaded at once.
+    uniforms_.clear();
+    const CameraMatrices camera = camera_matrices(view, settings.width, settings.height, gpu_scene_.space());
+    const auto frame_slot = [&](int samples) {
+        return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples));
+    };
+    const gpu::UniformArena::Slot frame = frame_slot(0);
+    const auto view_slot = [&](const glm::mat4& clip_from_render) {
+        return uniforms_.add(gpu::ViewUniforms{clip_from_render, {}});
+    };
+    const passes::View camera_view{view_slot(glm::mat4(camera.clip_from_render)), false};
+
+    std::vector<passes::LightPass> lights;
+    std::vector<double> fluxes;
+    for (const int index : plan.lights) {
+        const scene::LightInstance& instance = pose.light_instances[static_cast<size_t>(index)];
+        const LightSetup setup =
+            set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
+                         gpu_scene_.space(), settings.rsm_size, settings.shadow_size);
+        passes::LightPass pass;
+        pass.name = setup.name;
+        pass.map_kind = setup.map_kind;
+        pass.profile = setup.profile;
+        pass.uniforms = uniforms_.add(setup.gpu);
+        for (const LightFace& face : setup.faces) {
+            pass.faces.push_back({view_slot(face.clip_from_render), face.mirrored});
+        }
+        pass.rsm_size = static_cast<int>(setup.gpu.map.x);
+        pass.shadow_size = static_cast<int>(setup.gpu.map.y);
+        pass.flux_w = setup.flux_w;
+        lights.push_back(pass);
+        fluxes.push_back(setup.flux_w);
+    }
+    report.lights = static_cast<int>(lights.size());
+
+    const std::vector<int> samples = share_samples(fluxes, settings.rsm_samples);
+    if (samples != pattern_counts_ || settings.rsm_pattern != pattern_kind_) {
+        patterns_.clear();
+        for (const int count : samples) {
+            const std::vector<glm::vec4> pattern = passes::make_rsm_pattern(settings.rsm_pattern, count);
+            patterns_.push_back(gl::Buffer::of("rsm pattern", std::span<const glm::vec4>(pattern)));
+        }
+        pattern_counts_ = samples;
+        pattern_kind_ = settings.rsm_pattern;
+    }
+    std::vector<gpu::UniformArena::Slot> gather_frames;
+    std::vector<const gl::Buffer*> patterns;
+    for (size_t i = 0; i < samples.size(); ++i) {
+        gather_frames.push_back(frame_slot(samples[i]));
+        patterns.push_back(&patterns_[i]);
+        report.rsm_samples += plan.indirect ? samples[i] : 0;
+    }
+    uniforms_.upload();
+
+    gl::PassTimer timer(timing);
+    if (plan.deform) {
+        timer.begin("deform");
+        passes::run_deform(programs_, gpu_scene_);
+        timer.end();
+        report.executed.emplace_back("deform");
+    }
+    FrameGraph graph(pool_);
+    build_pipeline(graph, {.plan = plan,
+                           .settings = settings,
+                           .context = {.programs = programs_,
+                                       .scene = gpu_scene_,
+                                       .uniforms = uniforms_,
+                                       .frame = frame,
+                                       .width = settings.width,
+                                       .height = settings.height},
+                           .camera = camera_view,
+                           .lights = lights,
+                           .gather_frames = gather_frames,
+                           .patterns = patterns,
+                           .target = graph.import_texture("color", color_),
+                           .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});
+    graph.execute(timer);
+    report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
+    for (const std::string& pass : graph.culled()) {
+        report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    report.passes = timer.collect();
+    return report;
+}
+
+Image Renderer::read_color() const {
+    Image image(color_.desc().width, color_.desc().height);
+    const auto width = static_cast<size_t>(image.width);
+    const auto height = static_cast<size_t>(image.height);
+    std::vector<float> rgba(width * height * 4);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(color_.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)), rgba.data());
+    for (size_t y = 0; y < height; ++y) {
+        const size_t source = (height - 1 - y) * width;
+        for (size_t x = 0; x < width; ++x) {
+            std::copy_n(&rgba[(source + x) * 4], 3, &image.rgb[(y * width + x) * 3]);
+        }
+    }
+    return image;
+}
+
+CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, const std::string& name, int width,
+                        int height) {
+    int node = scene.active_camera_node;
+    if (!name.empty()) {
+        const auto found = std::find_if(scene.topological_order.begin(), scene.topological_order.end(), [&](int i) {
+            const scene::Node& candidate = scene.nodes[static_cast<size_t>(i)];
+            return candidate.camera != scene::k_none && candidate.name == name;
+        });
+        if (found == scene.topological_order.end()) {
+            throw usage_error(fmt::format("{} has no camera named {}; bounce info lists them", scene.name, name));
+        }
+        node = *found;
+    }
+    const auto pixel_aspect = static_cast<double>(scene.render.pixel_aspect_x / scene.render.pixel_aspect_y);
+    if (node == scene::k_none) {
+        const double aspect = static_cast<double>(width) / height;
+        const scene::PlacedCamera placed = scene::framing_camera(scene::world_bounds(scene, pose), aspect);
+        return {placed.world_from_camera, placed.camera, 1.0};
+    }
+    const auto index = static_cast<size_t>(node);
+    return {pose.world_from_node[index], pose.cameras[static_cast<size_t>(scene.nodes[index].camera)], pixel_aspect};
+}
+
+}  // namespace bounce

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame_graph/frame_graph.h"
+#include "gl/context.h"
+#include "gl/pass_timer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gpu/gpu_scene.h"
+#include "gpu/uniform_arena.h"
+#include "image/image.h"
+#include "renderer/camera_view.h"
+#include "renderer/frame_plan.h"
+#include "renderer/settings.h"
+
+namespace bounce {
+
+// What a frame did and cost.
+struct FrameReport {
+    std::vector<gl::PassTime> passes;  // empty where timing is off
+    std::vector<std::string> executed;
+    std::vector<LeftOut> left_out;     // planned and culled
+    std::vector<std::string> approximations;
+    size_t triangles = 0;
+    int rsm_samples = 0;     // a pixel, over all lights
+    int lights = 0;
+    int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
+};
+
+// Draws a scene. Needs a current context set up by gl::initialise_current_context() for its whole life.
+class Renderer {
+  public:
+    explicit Renderer(const scene::Scene& scene);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    Renderer(Renderer&&) = delete;
+    Renderer& operator=(Renderer&&) = delete;
+
+    // Draws one frame into color(). Does not wait for the GPU unless timing or counting asks for it.
+    // Throws Error(failed) with the pass's name on an OpenGL error.
+    FrameReport render(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
+                       gl::TimingMode timing = gl::TimingMode::off);
+
+    // Scene-linear radiance times film exposure, RGBA32F, bottom row first; of the last frame.
+    [[nodiscard]] const gl::Texture& color() const { return color_; }
+    // The same on the CPU, top row first.
+    [[nodiscard]] Image read_color() const;
+
+    [[nodiscard]] const gpu::GpuScene& gpu_scene() const { return gpu_scene_; }
+    // Forgets compiled shaders, so that changed sources ($BOUNCE_SHADER_DIR) are compiled again.
+    void reload_shaders() { programs_.clear(); }
+
+  private:
+    friend class Pipeline;
+
+    const scene::Scene& scene_;
+    gpu::GpuScene gpu_scene_;
+    gl::ProgramCache programs_;
+    TransientPool pool_;
+    gpu::UniformArena uniforms_;
+    gl::Texture color_;
+    std::vector<gl::Buffer> patterns_;  // by light; kept while the counts stay
+    std::vector<int> pattern_counts_;
+    passes::RsmPattern pattern_kind_{};
+};
+
+// The view of the scene's active camera at the pose; framing_camera() where the scene has none.
+// name picks another camera node by its name. Throws usage_error for an unknown name.
+[[nodiscard]] CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
+                                      int width, int height);
+
+}  // namespace bounce

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LIB_BRDF
+#define LIB_BRDF
+
+#include "lib/math.glsl"
+
+// Factor of Disney's diffuse lobe over Lambert's (Burley 2012, "Physically Based Shading at Disney"); the
+// Principled BSDF of Blender before 4.0 has it. l and v are unit vectors away from the surface.
+float disney_diffuse_factor(float n_dot_l, float n_dot_v, float l_dot_v, float roughness) {
+    // cos^2 of the half angle between l and v.
+    float cos2_half = 0.5 * (1.0 + l_dot_v);
+    float grazing = 2.0 * roughness * cos2_half - 0.5;  // FD90 - 1
+    float from_l = pow(clamp(1.0 - n_dot_l, 0.0, 1.0), 5.0);
+    float from_v = pow(clamp(1.0 - n_dot_v, 0.0, 1.0), 5.0);
+    return (1.0 + grazing * from_l) * (1.0 + grazing * from_v);
+}
+
+// Unpolarised Fresnel reflectance of a dielectric with relative index of refraction eta.
+float dielectric_fresnel(float cos_i, float eta) {
+    float g2 = eta * eta - 1.0 + cos_i * cos_i;
+    if (g2 <= 0.0) {
+        return 1.0;
+    }
+    float g = sqrt(g2);
+    float a = (g - cos_i) / (g + cos_i);
+    float b = (cos_i * (g + cos_i) - 1.0) / (cos_i * (g - cos_i) + 1.0);
+    return 0.5 * a * a * (1.0 + b * b);
+}
+
+struct Surface {
+    vec3 position;  // render space
+    vec3 normal;    // unit, facing the viewer
+    vec3 base_color;
+    float metallic;
+    float roughness;
+    float specular;
+    bool disney;
+};
+
+vec3 diffuse_albedo(Surface s) {
+    return s.base_color * (1.0 - s.metallic);
+}
+
+// GGX reflection times the cosine at the receiver: BRDF * n.l (Walter et al. 2007, "Microfacet Models for
+// Refraction through Rough Surfaces"; height-correlated Smith masking, Heitz 2014). F0 and its rise to 1
+// follow the Principled BSDF: 0.08 * specular for dielectrics, the base colour for metals, scaled by the
+// exact Fresnel curve.
+vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
+    float n_dot_l = dot(s.normal, l);
+    float n_dot_v = max(dot(s.normal, v), 1e-4);
+    if (n_dot_l <= 0.0) {
+        return vec3(0.0);
+    }
+    // Below this a highlight is narrower than float resolves; Cycles treats such surfaces as mirrors, which
+    // lights without size do not show in.
+    float alpha = max(s.roughness * s.roughness, 1e-3);
+    float alpha2 = alpha * alpha;
+    vec3 h = safe_normalize(l + v, s.normal);
+    float n_dot_h = clamp(dot(s.normal, h), 0.0, 1.0);
+    float h_dot_v = clamp(dot(h, v), 0.0, 1.0);
+    float t = 1.0 + n_dot_h * n_dot_h * (alpha2 - 1.0);
+    float distribution = alpha2 / (PI * max(t * t, 1e-20));
+    float lambda_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2);
+    float lambda_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
+    float visibility = 0.5 / max(lambda_v + lambda_l, 1e-20);
+
+    float f0_dielectric = 0.08 * s.specular;
+    float root = sqrt(clamp(f0_dielectric, 0.0, 0.99));
+    float eta = max((1.0 + root) / (1.0 - root), 1.0001);
+    float f0_exact = (eta - 1.0) * (eta - 1.0) / ((eta + 1.0) * (eta + 1.0));
+    float rise = clamp((dielectric_fresnel(h_dot_v, eta) - f0_exact) / (1.0 - f0_exact), 0.0, 1.0);
+    vec3 f0 = mix(vec3(f0_dielectric), s.base_color, s.metallic);
+    vec3 fresnel = s.specular > 0.0 || s.metallic > 0.0 ? mix(f0, vec3(1.0), rise) : vec3(0.0);
+    return fresnel * (distribution * visibility * n_dot_l);
+}
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fetches a material in a fragment shader. What a batch does not have is compiled out.
+#ifndef LIB_MATERIAL
+#define LIB_MATERIAL
+
+#include "lib/brdf.glsl"
+#include "shared/bindings.h"
+#include "shared/types.h"
+
+layout(std430, binding = SSBO_MATERIALS) readonly buffer MaterialBlock {
+    GpuMaterial materials[];
+};
+
+#if defined(BASE_COLOR_TEXTURE) || defined(METALLIC_ROUGHNESS_TEXTURE) || defined(NORMAL_TEXTURE) || \
+    defined(EMISSION_TEXTURE)
+#define ANY_TEXTURE
+#endif
+
+#ifdef BASE_COLOR_TEXTURE
+layout(binding = TEX_BASE_COLOR) uniform sampler2D base_color_texture;
+#endif
+#ifdef METALLIC_ROUGHNESS_TEXTURE
+layout(binding = TEX_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
+#endif
+#ifdef NORMAL_TEXTURE
+layout(binding = TEX_NORMAL) uniform sampler2D normal_texture;
+#endif
+#ifdef EMISSION_TEXTURE
+layout(binding = TEX_EMISSION) uniform sampler2D emission_texture;
+#endif
+
+layout(location = 0) flat in uint in_material;
+layout(location = 1) in vec3 in_normal;
+#ifdef NORMAL_TEXTURE
+layout(location = 2) in vec4 in_tangent;
+#endif
+#ifdef ANY_TEXTURE
+layout(location = 3) in vec4 in_uv;
+#endif
+#ifdef VERTEX_COLOR
+layout(location = 4) in vec4 in_color;
+#endif
+
+#ifdef ANY_TEXTURE
+vec2 texture_uv(GpuMaterial m, int slot) {
+    vec4 row = m.uv[2 * slot];
+    vec3 uv = vec3(row.w > 0.5 ? in_uv.zw : in_uv.xy, 1.0);
+    return vec2(dot(row.xyz, uv), dot(m.uv[2 * slot + 1].xyz, uv));
+}
+#endif
+
+vec4 material_base_color(GpuMaterial m) {
+    vec4 color = m.base_color;
+#ifdef BASE_COLOR_TEXTURE
+    color *= texture(base_color_texture, texture_uv(m, TEX_BASE_COLOR));
+#endif
+#ifdef VERTEX_COLOR
+    color *= in_color;
+#endif
+    return color;
+}
+
+// Fills all but the position. Discards what an alpha test cuts away.
+Surface material_surface(out vec3 emission) {
+    GpuMaterial m = materials[in_material];
+    vec4 base_color = material_base_color(m);
+#ifdef ALPHA_TEST
+    if (base_color.a < m.emission.a) {
+        discard;
+    }
+#endif
+    Surface s;
+    s.position = vec3(0.0);
+    s.base_color = base_color.rgb;
+    s.metallic = m.surface.x;
+    s.roughness = m.surface.y;
+    s.specular = m.surface.z;
+    s.disney = m.flags.x == DIFFUSE_DISNEY;
+#ifdef METALLIC_ROUGHNESS_TEXTURE
+    vec4 mr = texture(metallic_roughness_texture, texture_uv(m, TEX_METALLIC_ROUGHNESS));
+    s.roughness *= mr.g;
+    s.metallic *= mr.b;
+#endif
+    vec3 normal = safe_normalize(in_normal, vec3(0.0, 0.0, 1.0));
+#ifdef NORMAL_TEXTURE
+    vec3 tangent_normal = texture(normal_texture, texture_uv(m, TEX_NORMAL)).xyz * 2.0 - 1.0;
+    tangent_normal.xy *= m.surface.w;
+    vec3 bitangent = cross(normal, in_tangent.xyz) * in_tangent.w;
+    normal = safe_normalize(
+        in_tangent.xyz * tangent_normal.x + bitangent * tangent_normal.y + normal * tangent_normal.z, normal);
+#endif
+    s.normal = gl_FrontFacing ? normal : -normal;
+    emission = vec3(0.0);
+#ifdef EMISSION
+    emission = m.emission.rgb;
+#ifdef EMISSION_TEXTURE
+    emission *= texture(emission_texture, texture_uv(m, TEX_EMISSION)).rgb;
+#endif
+    if (m.flags.y == 1) {  // unlit: shown as it is, reflects nothing
+        emission = s.base_color;
+        s.base_color = vec3(0.0);
+        s.metallic = 0.0;
+        s.specular = 0.0;
+    }
+#endif
+    return s;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds up the picture: direct light, indirect light times albedo, emission, world.
+#define READ_GBUFFER
+#include "lib/gbuffer.glsl"
+
+layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
+layout(binding = IMG_OUT, rgba32f) writeonly uniform image2D color_image;
+#ifdef DIRECT
+layout(binding = TEX_DIRECT) uniform sampler2D direct_texture;
+#endif
+#ifdef INDIRECT
+layout(binding = TEX_INDIRECT) uniform sampler2D irradiance_texture;
+#endif
+#ifdef EMISSION
+layout(binding = TEX_GBUFFER2) uniform sampler2D emission_texture;
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, frame.size.xy))) {
+        return;
+    }
+    vec3 color = frame.world_radiance.rgb * frame.composite.y;
+    Surface s;
+    if (read_surface(pixel, s)) {
+        color = vec3(0.0);
+#ifdef DIRECT
+        color += texelFetch(direct_texture, pixel, 0).rgb;
+#endif
+#ifdef INDIRECT
+        color += diffuse_albedo(s) / PI * texelFetch(irradiance_texture, pixel, 0).rgb;
+#endif
+#ifdef WORLD
+        // The world's light without occlusion; metals reflect it as well as the rest diffuses it.
+        color += s.base_color * frame.world_radiance.rgb * frame.composite.y;
+#endif
+#ifdef EMISSION
+        color += texelFetch(emission_texture, pixel, 0).rgb * frame.composite.y;
+#endif
+    }
+    imageStore(color_image, pixel, vec4(color * frame.composite.x, 1.0));
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every binding point and size that C++ and GLSL must agree on. Compiled by both.
+#ifndef BOUNCE_SHARED_BINDINGS_H
+#define BOUNCE_SHARED_BINDINGS_H
+
+// Uniform buffers.
+#define UBO_FRAME 0
+#define UBO_VIEW 1
+#define UBO_LIGHT 2
+
+// Storage buffers.
+#define SSBO_DRAWS 0
+#define SSBO_MATERIALS 1
+#define SSBO_PATTERN 3
+#define SSBO_PIXEL_LIST 4
+#define SSBO_DISPATCH 5
+#define SSBO_DEFORM_JOBS 0
+#define SSBO_POSITIONS 1
+#define SSBO_NORMALS 2
+#define SSBO_TANGENTS 3
+#define SSBO_SKIN_INFLUENCES 4
+#define SSBO_SKIN_MATRICES 5
+#define SSBO_MORPH_DELTAS 6
+#define SSBO_MORPH_WEIGHTS 7
+
+// Texture units. Materials use the first four.
+#define TEX_BASE_COLOR 0
+#define TEX_METALLIC_ROUGHNESS 1
+#define TEX_NORMAL 2
+#define TEX_EMISSION 3
+#define TEX_DEPTH 4
+#define TEX_GBUFFER0 5
+#define TEX_GBUFFER1 6
+#define TEX_GBUFFER2 7
+#define TEX_SHADOW 8
+#define TEX_RSM 9
+#define TEX_DIRECT 10
+#define TEX_INDIRECT 11
+#define TEX_LOWRES 12
+
+// Image units.
+#define IMG_OUT 0
+#define IMG_OUT1 1
+
+// Vertex attributes.
+#define ATTRIB_POSITION 0
+#define ATTRIB_NORMAL 1
+#define ATTRIB_TANGENT 2
+#define ATTRIB_UV0 3
+#define ATTRIB_UV1 4
+#define ATTRIB_COLOR 5
+#define ATTRIB_DRAW 6
+
+// Compute work-group sizes. 8x8 is one or two waves on every GPU and small enough that a tile of the
+// screen is mostly one surface.
+#define GROUP_2D 8
+#define GROUP_1D 64
+
+#endif
