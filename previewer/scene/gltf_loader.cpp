@@ -40,7 +40,11 @@ LoadResult load(const std::filesystem::path& path) {
     const std::vector<int> khr_lights = gltf::read_lights(source, scene);
     gltf::read_animations(source, accessors, khr_lights, scene);
     gltf::read_scene_settings(source, scene);
-    return {std::move(scene), std::move(source.warnings)};
+    LoadResult result{std::move(scene), {}, std::move(source.warnings)};
+    for (const nlohmann::json& name : gltf::list(source.json(), "extensionsUsed")) {
+        result.extensions_used.push_back(name.get<std::string>());
+    }
+    return result;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace bounce::scene {
 
 struct LoadResult {
     Scene scene;
+    std::vector<std::string> extensions_used;  // as the file lists them
     std::vector<std::string> warnings;  // features used by the file that are not carried, one sentence each
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 // A run of equally spaced elements whose bytes are known to be there.
 struct Elements {
-    std::span<const uint8_t> bytes;
+    std::span<const uint8_t> bytes{};
     size_t stride = 0;
     size_t count = 0;
     int components = 0;

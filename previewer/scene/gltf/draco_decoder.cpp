@@ -55,7 +55,7 @@ std::vector<uint32_t> DracoMesh::indices() const {
     std::vector<uint32_t> result;
     result.reserve(size_t{mesh_->num_faces()} * 3);
     for (draco::FaceIndex face(0); face < mesh_->num_faces(); ++face) {
-        for (const draco::PointIndex point : mesh_->face(face)) {
+        for (const draco::PointIndex& point : mesh_->face(face)) {
             result.push_back(point.value());
         }
     }

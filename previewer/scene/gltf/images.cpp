@@ -70,6 +70,9 @@ Image decode(Source& source, std::span<const uint8_t> bytes, const std::string& 
     OIIO::ImageSpec hints;
     // glTF's alpha is not multiplied into the colour.
     hints.attribute("oiio:UnassociatedAlpha", 1);
+    // Some of its readers take the memory from the hints alone, some from the argument.
+    OIIO::Filesystem::IOProxy* proxy = &memory;
+    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const auto input = OIIO::ImageInput::open(name, &hints, &memory);
     if (!input) {
         throw refusal("{} cannot be decoded: {}", whose, OIIO::geterror());

@@ -14,24 +14,21 @@ using nlohmann::json;
 // What tinygltf is given: the lists that it reads without loss.
 json typed_part(const json& root) {
     json part = json::object();
-    for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews",
-                            "textures", "samplers", "materials", "cameras", "skins"}) {
+    for (const char* key : {"asset", "scene"}) {
         if (const json* value = member(root, key)) {
             part[key] = *value;
         }
     }
     for (const char* key : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "textures", "samplers",
                             "materials", "cameras", "skins"}) {
-        for (json& item : part[key]) {
+        json& items = part[key] = list(root, key);
+        for (json& item : items) {
             item.erase("extras");
             item.erase("extensions");
         }
-        if (part[key].is_null()) {
-            part.erase(key);
-        }
     }
     // Indices that Draco holds have an accessor without a buffer view, which tinygltf takes for an error.
-    for (json& mesh : part.contains("meshes") ? part["meshes"] : json::array()) {
+    for (json& mesh : part["meshes"]) {
         for (json& primitive : mesh["primitives"]) {
             primitive.erase("indices");
             primitive.erase("extras");
