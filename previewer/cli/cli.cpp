@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
     Run run_command;
     add_render(app, run_command);
     add_compare(app, run_command);
+    add_info(app, run_command);
 
     try {
         app.parse(argc, argv);

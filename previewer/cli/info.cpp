@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "scene/gltf_loader.h"
+#include "scene/pose.h"
+#include "scene/scene_features.h"
+
+namespace bounce::cli {
+namespace {
+
+using nlohmann::json;
+using scene::k_none;
+
+struct InfoArguments {
+    std::filesystem::path scene;
+    bool json = false;
+};
+
+// Everything `info` says, gathered once and printed in either form.
+struct Summary {
+    const scene::LoadResult& loaded;
+    scene::SceneFeatures features;
+    scene::Bounds bounds;  // at the first frame
+};
+
+const char* type_name(scene::LightType type) {
+    switch (type) {
+        case scene::LightType::point:
+            return "point";
+        case scene::LightType::spot:
+            return "spot";
+        case scene::LightType::sun:
+            return "sun";
+        case scene::LightType::area:
+            return "area";
+    }
+    return "";
+}
+
+std::string node_name(const scene::Scene& scene, int index) {
+    const std::string& name = scene.nodes[static_cast<size_t>(index)].name;
+    return name.empty() ? fmt::format("node {}", index) : name;
+}
+
+json vector_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+json lights_json(const scene::Scene& scene) {
+    json lights = json::array();
+    for (const int index : scene.topological_order) {
+        const scene::Node& node = scene.nodes[static_cast<size_t>(index)];
+        if (node.light == k_none) {
+            continue;
+        }
+        const scene::Light& light = scene.lights[static_cast<size_t>(node.light)];
+        json entry{{"name", node_name(scene, index)},
+                   {"type", type_name(light.type)},
+                   {"color", vector_json(glm::dvec3(light.color))},
+                   {"cast_shadow", light.cast_shadow}};
+        if (light.type == scene::LightType::sun) {
+            entry["irradiance_w_m2"] = light.irradiance_w_m2;
+        } else {
+            entry["power_w"] = light.power_w;
+        }
+        lights.push_back(std::move(entry));
+    }
+    return lights;
+}
+
+json cameras_json(const scene::Scene& scene) {
+    json cameras = json::array();
+    for (const int index : scene.topological_order) {
+        const scene::Node& node = scene.nodes[static_cast<size_t>(index)];
+        if (node.camera == k_none) {
+            continue;
+        }
+        const scene::Camera& camera = scene.cameras[static_cast<size_t>(node.camera)];
+        json entry{{"name", node_name(scene, index)},
+                   {"type", camera.perspective ? "perspective" : "orthographic"},
+                   {"active", index == scene.active_camera_node}};
+        if (camera.perspective) {
+            entry["yfov_rad"] = camera.yfov_rad;
+        }
+        cameras.push_back(std::move(entry));
+    }
+    return cameras;
+}
+
+json animations_json(const scene::Scene& scene) {
+    json animations = json::array();
+    for (const scene::Animation& animation : scene.animations) {
+        animations.push_back({{"name", animation.name},
+                              {"duration_s", animation.duration_s},
+                              {"channels", animation.channels.size()}});
+    }
+    return animations;
+}
+
+json features_json(const scene::SceneFeatures& features) {
+    return {{"skinned", features.skinned},
+            {"morphed", features.morphed},
+            {"textured", features.textured()},
+            {"vertex_colors", features.vertex_colors},
+            {"alpha_mask", features.alpha_mask},
+            {"alpha_blend", features.alpha_blend},
+            {"emissive", features.emissive},
+            {"glossy", features.glossy},
+            {"unlit", features.unlit},
+            {"world_not_black", features.world_not_black},
+            {"animated_camera", features.animated_camera},
+            {"animated_lights", features.animated_lights},
+            {"animated_geometry", features.animated_geometry},
+            {"animated_materials", features.animated_materials},
+            {"animated_world", features.animated_world}};
+}
+
+json summary_json(const Summary& summary) {
+    const scene::Scene& scene = summary.loaded.scene;
+    json result{
+        {"schema", "bounce.info/1"},
+        {"scene", scene.name},
+        {"from_blender", scene.from_blender},
+        {"blender_version", scene.blender_version},
+        {"counts",
+         {{"nodes", scene.nodes.size()},
+          {"meshes", scene.meshes.size()},
+          {"draws", summary.features.draws},
+          {"triangles", summary.features.triangles},
+          {"vertices", summary.features.vertices},
+          {"materials", scene.materials.size()},
+          {"textures", scene.textures.size()},
+          {"images", scene.images.size()},
+          {"skins", scene.skins.size()}}},
+        {"frames", {{"start", scene.frames.start}, {"end", scene.frames.end}, {"fps", scene.frames.fps}}},
+        {"render", {{"width", scene.render.width}, {"height", scene.render.height}}},
+        {"view", {{"view_transform", scene.view.view_transform}, {"exposure", scene.view.exposure}}},
+        {"world",
+         {{"color", vector_json(glm::dvec3(scene.world.color))}, {"strength", scene.world.strength}}},
+        {"lights", lights_json(scene)},
+        {"cameras", cameras_json(scene)},
+        {"animations", animations_json(scene)},
+        {"features", features_json(summary.features)},
+        {"extensions", summary.loaded.extensions_used},
+        {"warnings", summary.loaded.warnings},
+        {"unsupported", json::array()}};
+    result["bounds"] = nullptr;
+    if (!summary.bounds.empty()) {
+        result["bounds"] = {{"low", vector_json(summary.bounds.low)},
+                            {"high", vector_json(summary.bounds.high)}};
+    }
+    for (const scene::Unsupported& item : scene.unsupported) {
+        result["unsupported"].push_back({{"object", item.object}, {"what", item.what}});
+    }
+    return result;
+}
+
+std::string version_text(const std::vector<int>& version) {
+    return version.empty() ? "unknown" : fmt::format("{}", fmt::join(version, "."));
+}
+
+void print_lights(const scene::Scene& scene, int count) {
+    fmt::print("lights      {}\n", count);
+    for (const json& light : lights_json(scene)) {
+        const bool sun = light.contains("irradiance_w_m2");
+        fmt::print("  {:<20} {:<5} {:.6g} {}{}\n", light["name"].get<std::string>(),
+                   light["type"].get<std::string>(),
+                   sun ? light["irradiance_w_m2"].get<double>() : light["power_w"].get<double>(),
+                   sun ? "W/m2" : "W", light["cast_shadow"].get<bool>() ? "" : ", casts no shadow");
+    }
+    const glm::vec3 radiance = scene.world.color * scene.world.strength;
+    fmt::print("world       {:.4g} {:.4g} {:.4g} W/(m2 sr){}\n", radiance.r, radiance.g, radiance.b,
+               scene.from_blender ? "" : " (a default)");
+}
+
+void print_cameras(const scene::Scene& scene) {
+    const json cameras = cameras_json(scene);
+    fmt::print("cameras     {}\n",
+               cameras.empty() ? "none; the whole scene is framed" : fmt::format("{}", cameras.size()));
+    for (const json& camera : cameras) {
+        fmt::print("  {:<20} {}{}\n", camera["name"].get<std::string>(), camera["type"].get<std::string>(),
+                   camera["active"].get<bool>() ? ", active" : "");
+    }
+}
+
+void print_summary(const Summary& summary) {
+    const scene::Scene& scene = summary.loaded.scene;
+    const scene::SceneFeatures& features = summary.features;
+    fmt::print(
+        "{}{}\n", scene.name,
+        scene.from_blender ? fmt::format(", from Blender {}", version_text(scene.blender_version)) : "");
+    fmt::print("geometry    {} triangles, {} vertices in {} draws of {} meshes\n", features.triangles,
+               features.vertices, features.draws, scene.meshes.size());
+    if (!summary.bounds.empty()) {
+        const glm::dvec3 size = summary.bounds.high - summary.bounds.low;
+        const glm::dvec3 center = summary.bounds.center();
+        fmt::print("extent      {:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g})\n", size.x, size.y,
+                   size.z, center.x, center.y, center.z);
+    }
+    fmt::print("materials   {}, with {} textures\n", scene.materials.size(), scene.textures.size());
+    fmt::print("frames      {} to {} at {:.6g} a second\n", scene.frames.start, scene.frames.end,
+               scene.frames.fps);
+    print_lights(scene, features.lights());
+    print_cameras(scene);
+    fmt::print("animations  {}\n", scene.animations.size());
+    for (const scene::Animation& animation : scene.animations) {
+        fmt::print("  {:<20} {:.3f} s, {} channels\n", animation.name, animation.duration_s,
+                   animation.channels.size());
+    }
+    if (!summary.loaded.extensions_used.empty()) {
+        fmt::print("extensions  {}\n", fmt::join(summary.loaded.extensions_used, ", "));
+    }
+    for (const scene::Unsupported& item : scene.unsupported) {
+        fmt::print("not exported: {}: {}\n", item.object, item.what);
+    }
+    for (const std::string& warning : summary.loaded.warnings) {
+        fmt::print("warning: {}\n", warning);
+    }
+}
+
+ExitCode run_info(const InfoArguments& arguments) {
+    // Where a .blend is given it is to be exported first; here is the place.
+    const scene::LoadResult loaded = scene::load_gltf(arguments.scene);
+    const int animation = scene::default_animation(loaded.scene);
+    const scene::Pose pose = scene::evaluate_pose(loaded.scene, 0.0, animation);
+    const Summary summary{loaded, scene::scene_features(loaded.scene, animation),
+                          scene::world_bounds(loaded.scene, pose)};
+    if (arguments.json) {
+        fmt::print("{}\n", summary_json(summary).dump(2, ' ', false, json::error_handler_t::replace));
+    } else {
+        print_summary(summary);
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+    auto arguments = std::make_shared<InfoArguments>();
+    CLI::App* command = app.add_subcommand("info", "Say what is in a scene");
+    command->add_option("SCENE", arguments->scene, "The scene: .glb or .gltf")->required();
+    command->add_flag("--json", arguments->json, "Print JSON (schema bounce.info/1)");
+    command->callback([&run, arguments] { run = [arguments] { return run_info(*arguments); }; });
+}
+
+}  // namespace bounce::cli
