@@ -35,6 +35,21 @@ void read_indices(draco::Mesh& mesh, uint32_t count, const void* data) {
     }
 }
 
+// Edgebreaker leaves degenerate triangles out, and what it writes of a mesh that has no others cannot be
+// decoded.
+bool has_proper_triangle(const draco::Mesh& mesh) {
+    const draco::PointAttribute* positions = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+    if (!positions) return false;
+    for (uint32_t i = 0; i < mesh.num_faces(); ++i) {
+        const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+        const auto a = positions->mapped_index(face[0]);
+        const auto b = positions->mapped_index(face[1]);
+        const auto c = positions->mapped_index(face[2]);
+        if (a != b && b != c && c != a) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 struct Encoder {
@@ -144,9 +159,10 @@ bool encoderEncode(Encoder* encoder, uint8_t preserve_order) {
                 throw std::runtime_error("could not share attribute values");
             encoder->mesh.DeduplicatePointIds();
         }
-        draco::Status status = encoder->encode(preserve_order != 0);
-        // Edgebreaker refuses meshes whose triangles are all degenerate; kept in order they can be written.
-        if (!status.ok() && !preserve_order) status = encoder->encode(true);
+        const bool in_order = preserve_order != 0 || !has_proper_triangle(encoder->mesh);
+        draco::Status status = encoder->encode(in_order);
+        // What Edgebreaker cannot write for another reason can still be written in order.
+        if (!status.ok() && !in_order) status = encoder->encode(true);
         if (!status.ok()) throw std::runtime_error(status.error_msg_string());
         return true;
     });
