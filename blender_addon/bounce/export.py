@@ -76,7 +76,7 @@ def _prepare(scene, view_layer, options, edits):
     exporter understands."""
     if scene.frame_end < scene.frame_start:
         raise ExportError(f"the frame range of scene '{scene.name}' is empty")
-    visibility = Visibility(view_layer)
+    visibility = Visibility(scene, view_layer)
     evaluate_as_render(scene, view_layer, visibility, edits)
     objects = _with_ancestors(visibility.objects, scene)
     models = {

@@ -5,6 +5,8 @@ from . import read_lights
 
 # Types that hiding in renders makes vanish. An armature or an empty shows nothing either way.
 _SHOWING = {"MESH", "LIGHT"}
+# Types that a node may have for its children's sake alone, since they show nothing themselves.
+_CARRYING = {"EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CAMERA"}
 
 
 def is_rendered(obj):
@@ -26,16 +28,20 @@ def tag(vtree, export):
 
 
 def _tag(uuid, vtree, export, used_armatures):
-    """Keeps a node that shows something or has a descendant that does. Returns whether it was kept."""
+    """Keeps a node that shows something, or that carries one that does. Returns whether anything under it was kept.
+
+    A hidden mesh carries nothing, it would be seen; the exporter hangs its children on the next node above.
+    """
     vnode = vtree.nodes[uuid]
     children_kept = [_tag(child, vtree, export, used_armatures) for child in vnode.children]
     if vnode.blender_bone is not None:
         keep = vnode.armature in used_armatures or any(children_kept)
     else:
         shown = _is_shown(vnode, vtree, export) and _shows_something(vnode, export)
-        keep = shown or any(children_kept) or uuid in used_armatures
+        carries = vnode.blender_object.type in _CARRYING and any(children_kept)
+        keep = shown or carries or uuid in used_armatures
     vnode.keep_tag = keep
-    return keep
+    return keep or any(children_kept)
 
 
 def _is_shown(vnode, vtree, export):

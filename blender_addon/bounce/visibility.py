@@ -34,11 +34,15 @@ class Visibility:
     """Objects by pointer: `direct` are those of the view layer, `instanced(c)` those that an instance of
     collection c shows."""
 
-    def __init__(self, view_layer):
+    def __init__(self, scene, view_layer):
         self.direct = set()
         self._of_collection = {}
         self.objects = {}
         self._walk_layer(view_layer.layer_collection)
+        if scene.camera is not None:
+            # Blender renders through a camera wherever it is.
+            self.direct.add(scene.camera.as_pointer())
+            self.objects[scene.camera.as_pointer()] = scene.camera
 
     def instanced(self, collection):
         key = collection.as_pointer()
@@ -68,7 +72,7 @@ class Visibility:
 
     def _add(self, objects, shown):
         for obj in objects:
-            if obj.hide_render and "hide_render" not in animated_paths(obj):
+            if obj.hide_render and obj.type != "CAMERA" and "hide_render" not in animated_paths(obj):
                 continue
             shown.add(obj.as_pointer())
             self.objects[obj.as_pointer()] = obj

@@ -160,6 +160,9 @@ bool encoderEncode(Encoder* encoder, uint8_t preserve_order) {
             encoder->mesh.DeduplicatePointIds();
         }
         const bool in_order = preserve_order != 0 || !has_proper_triangle(encoder->mesh);
+        // Draco's decoder holds such data for broken.
+        if (in_order && encoder->mesh.num_points() > encoder->mesh.num_faces() * 3)
+            throw std::invalid_argument("vertices that no triangle uses");
         draco::Status status = encoder->encode(in_order);
         // What Edgebreaker cannot write for another reason can still be written in order.
         if (!status.ok() && !in_order) status = encoder->encode(true);

@@ -63,8 +63,8 @@ def blender():
 def export(blender):
     """Exports a .blend by the command line and returns the finished process."""
 
-    def run(blend, output, *options, check=True, draco=None):
-        return blender(blend, "-P", ADDON / "export_cli.py", "--", output, *options, check=check, draco=draco)
+    def run(blend, output, *options, check=True, draco=None, addon=ADDON):
+        return blender(blend, "-P", addon / "export_cli.py", "--", output, *options, check=check, draco=draco)
 
     return run
 

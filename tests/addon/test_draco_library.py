@@ -113,13 +113,15 @@ def test_normalised_integers_are_marked(codec):
 
 def test_degenerate_triangles(codec):
     attributes, indices = torus(6, 5)
-    line = np.repeat(indices[:1], 9)
-    data, ids, _, count = codec.encode(attributes, line)
-    _, decoded = codec.decode(data, ids, attributes)
-    assert len(decoded) == count
-    mixed = np.concatenate([indices, line])
+    three = {name: values[:3] for name, values in attributes.items()}
+    alone = np.array([0, 1, 1, 2, 2, 0], dtype=np.uint32)
+    data, ids, _, count = codec.encode(three, alone)
+    _, decoded = codec.decode(data, ids, three)
+    assert len(decoded) == count == len(alone)
+    mixed = np.concatenate([indices, alone])
     data, ids, _, count = codec.encode(attributes, mixed)
-    assert codec.decode(data, ids, attributes) is not None and count >= len(indices)
+    _, decoded = codec.decode(data, ids, attributes)
+    assert len(decoded) == count >= len(indices)
 
 
 def test_bad_input_is_refused(codec, capfd):
@@ -127,6 +129,8 @@ def test_bad_input_is_refused(codec, capfd):
     assert codec.encode(attributes, indices + np.uint32(1000)) is None
     assert "in a primitive of 42 vertices" in capfd.readouterr().err
     assert codec.encode(attributes, indices[:0]) is None
+    assert codec.encode(attributes, indices[:9], preserve_order=True) is None
+    assert "vertices that no triangle uses" in capfd.readouterr().err
     data, ids, _, _ = codec.encode(attributes, indices)
     assert codec.decode(data[: len(data) // 2], ids, attributes) is None
     assert codec.decode(b"", ids, attributes) is None

@@ -6,7 +6,7 @@ import pytest
 
 OBJECTS = ["Keyed", "Axis angle", "Child", "Grandchild", "Constrained", "Tracker", "Driven", "Strips", "Skinned",
            "On bone", "Morphed", "Curve", "Under curve", "Text", "Meta", "Member", "Follower", "Blinking",
-           "Child of blinking", "Hidden in viewport", "Eye closed", "Still", "Sheared"]
+           "Child of blinking", "Hidden in viewport", "Eye closed", "Still", "Sheared", "Child of hidden"]
 FRAMES = [5, 9, 15, 22, 28]
 # Single precision over a chain of a few matrices of a scene ten metres across.
 TOLERANCE_M = 2e-5
@@ -53,6 +53,12 @@ def test_what_should_move_does(motion):
 def test_what_the_render_hides_is_left_out(motion):
     names = {node.get("name") for node in motion.gltf.json["nodes"]}
     assert not names & {"Hidden in render", "In excluded collection"}
+
+
+def test_nothing_is_written_twice(motion):
+    instanced = {"Member", "Follower"}
+    names = [node["name"] for node in motion.gltf.json["nodes"]]
+    assert {name for name in names if names.count(name) > 1} == instanced
 
 
 def test_only_what_moves_has_channels(motion):

@@ -174,7 +174,10 @@ def blinking():
 
 
 def hidden():
-    truth.grid("Hidden in render", hide_render=True)
+    parent = truth.grid("Hidden in render", hide_render=True, location=(0, 0, 3))
+    truth.key(parent, "location", [(START, (0, 0, 3)), (END, (0, 1, 3))])
+    child = truth.grid("Child of hidden", location=(5, 8, 0))
+    child.parent = parent
     truth.grid("Hidden in viewport", location=(0, 8, 0)).hide_viewport = True
     truth.grid("Eye closed", location=(2, 8, 0)).hide_set(True)
     collection = bpy.data.collections.new("Excluded")
