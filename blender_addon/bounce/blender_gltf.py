@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drives Blender's own glTF exporter."""
 
+import contextlib
+import io
 import os
 
 import addon_utils
@@ -70,12 +72,15 @@ def run(path, options, compress, textures, normal_maps):
     unknown = sorted(set(arguments) - set(known))
     if unknown:
         raise ExportError(f"the glTF exporter of Blender {bpy.app.version_string} has no option {', '.join(unknown)}")
-    with _quiet():
-        try:
+    progress = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(progress):
             result = bpy.ops.export_scene.gltf(**arguments)
-        except RuntimeError as error:
-            # The operator's exception arrives as a whole traceback in the message; its last line says what happened.
-            raise ExportError(f"Blender's glTF exporter failed: {_last_line(error)}") from error
+    except RuntimeError as error:
+        print(progress.getvalue())
+        # The operator's exception arrives as a whole traceback in the message; its last line says what happened.
+        raise ExportError(f"Blender's glTF exporter failed: {_last_line(error)}") from error
+    _print_complaints(progress.getvalue())
     if result != {"FINISHED"}:
         raise ExportError(f"Blender's glTF exporter returned {sorted(result)}")
 
@@ -86,17 +91,9 @@ def _last_line(error):
     return (named or lines or ["no reason given"])[-1]
 
 
-class _quiet:
-    """Keeps the exporter's progress notes off the console; its warnings stay."""
-
-    def __enter__(self):
-        from io_scene_gltf2.io.com import gltf2_io_debug as debug
-
-        self._debug = debug if hasattr(debug, "g_current_output_level") else None
-        if self._debug:
-            self._level = self._debug.g_current_output_level
-            self._debug.set_output_level("ERROR")
-
-    def __exit__(self, *exception):
-        if self._debug:
-            self._debug.set_output_level(self._level)
+def _print_complaints(progress):
+    """The exporter's warnings, without its progress notes and without its regret that there is no Draco, of which the
+    report speaks where it was wanted."""
+    for line in progress.splitlines():
+        if ("WARNING" in line or "ERROR" in line) and "Draco mesh compression is not available" not in line:
+            print(line)

@@ -138,6 +138,12 @@ def _unexported_motion(material, model):
             yield f"animation of {path}"
 
 
+def _as_export_error(failure):
+    if isinstance(failure, ExportError):
+        return failure
+    return ExportError(f"{type(failure).__name__} in a hook: {failure}")
+
+
 def _write(path, options, library, current):
     """The exporter writes into a folder of its own beside the target; what it wrote then moves over in one step a
     file, the one that names the others last."""
@@ -149,9 +155,12 @@ def _write(path, options, library, current):
     try:
         target = folder / path.name
         with context.active(current):
-            blender_gltf.run(target, options, library is not None, used_images, normal_maps)
-        if current.failure is not None:
-            raise ExportError(f"the export failed: {current.failure}") from current.failure
+            try:
+                blender_gltf.run(target, options, library is not None, used_images, normal_maps)
+            finally:
+                # Whatever else goes wrong after a failed hook goes wrong because of it.
+                if current.failure is not None:
+                    raise _as_export_error(current.failure) from current.failure
         if not target.is_file():
             raise ExportError("Blender's glTF exporter wrote no file")
         for written in sorted(folder.rglob("*"), key=lambda p: p == target):

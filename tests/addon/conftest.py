@@ -45,8 +45,8 @@ def blender():
     if path is None:
         pytest.skip("Blender is not installed")
 
-    def run(*arguments, check=True, draco=None):
-        environment = dict(os.environ)
+    def run(*arguments, check=True, draco=None, environment=()):
+        environment = {**os.environ, **dict(environment)}
         environment.pop("BLENDER_EXTERN_DRACO_LIBRARY_PATH", None)
         if draco is not None:
             environment["BLENDER_EXTERN_DRACO_LIBRARY_PATH"] = str(draco)
