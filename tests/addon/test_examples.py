@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The example scenes build, export whole and hold what they are meant to show."""
+
+import bounce_schema
+import pytest
+from conftest import ROOT
+from gltf_eval import Gltf
+
+TRIANGLES = {"cornell": (62_986, 62_986), "colonnade": (20_000, 100_000), "table": (20_000, 100_000)}
+
+
+@pytest.fixture(scope="module", params=TRIANGLES)
+def example(request, blender, export, tmp_path_factory):
+    folder = tmp_path_factory.mktemp(request.param)
+    blender("-P", ROOT / "examples" / f"{request.param}.py", "--", folder / "scene.blend")
+    export(folder / "scene.blend", folder / "scene.glb", "--no-draco")
+    return request.param, Gltf(folder / "scene.glb")
+
+
+def test_example(example):
+    name, gltf = example
+    bounce_schema.validate(gltf.json)
+    root = gltf.bounce
+    assert root["unsupported"] == []
+    assert root["frames"] == {"start": 1, "end": 48, "fps": 24}
+    assert (root["render"]["width"], root["render"]["height"]) == (640, 360)
+    assert root["view"]["view_transform"] == "Standard" and "camera" in root
+    drawn = [node["mesh"] for node in gltf.json["nodes"] if "mesh" in node]
+    triangles = sum(gltf.json["accessors"][p["indices"]]["count"] // 3
+                    for mesh in drawn for p in gltf.json["meshes"][mesh]["primitives"])
+    low, high = TRIANGLES[name]
+    assert low <= triangles <= high
+
+
+def test_example_moves(example):
+    name, gltf = example
+    channels = gltf.channels()
+    paths = {key[1] for key in channels if isinstance(key, tuple)}
+    pointers = {key.rsplit("/", 1)[1] for key in channels if isinstance(key, str)}
+    if name == "cornell":
+        assert paths == {"rotation"}
+    elif name == "colonnade":
+        assert {(gltf.node("Sun"), "rotation"), (gltf.node("Camera"), "translation")} <= set(channels)
+        assert len({n["mesh"] for n in gltf.json["nodes"] if n["name"].startswith("Column ")}) == 1, "not shared"
+    else:
+        assert {"translation", "rotation", "weights"} <= paths
+        assert {"power_w", "color", "cone_angle_rad"} <= pointers
+        assert len(gltf.json["skins"]) == 1
+
+
+def test_example_without_a_target_is_bad_usage(blender):
+    done = blender("-P", ROOT / "examples/cornell.py", check=False)
+    assert done.returncode == 2 and "OUT.blend" in done.stderr
