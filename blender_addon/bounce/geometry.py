@@ -17,6 +17,7 @@ class Prepared:
     def __init__(self):
         self.source = {}  # pointer of a stand-in object -> pointer of what it stands for
         self.replaced = {}  # pointer of what is stood in for -> its stand-in
+        self.native = set()  # pointers of curves that Blender's exporter converts by itself
         self.names = {}  # pointer of a made mesh -> name to export
         self.issues = []  # (object name, words)
 
@@ -157,6 +158,13 @@ def evaluated_coordinates(obj):
 
 def _convert(obj, visibility, prepared, edits):
     """A mesh object beside a curve, surface, text or metaball. An object cannot change its type, so it stands in."""
+    if any(collection.library is not None for collection in obj.users_collection):
+        # Nothing can be added to a linked collection. Blender's exporter converts a curve, without its modifiers.
+        if obj.type == "META" or _shaping_modifiers(obj):
+            prepared.issues.append((obj.name, "from a library: " + ("metaball" if obj.type == "META" else "modifiers")))
+        if obj.type != "META":
+            prepared.native.add(obj.as_pointer())
+        return
     mesh = _evaluate(obj)
     if mesh is None or len(mesh.polygons) == 0:
         if mesh is not None:

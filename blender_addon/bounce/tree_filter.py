@@ -65,7 +65,7 @@ def _shows_something(vnode, export):
         return len(obj.data.polygons) > 0
     if obj.type == "LIGHT":
         return not read_lights.is_portal(obj.data)
-    return obj.type == "CAMERA"
+    return obj.type == "CAMERA" or obj.as_pointer() in export.prepared.native
 
 
 def _instancer(vnode, vtree):

@@ -166,6 +166,65 @@ def instanced():
         truth.key(empty, "location", [(START, (6 + 3 * i, 0, 0)), (END, (6 + 3 * i, 2, i))])
 
 
+def on_vertices():
+    """Instances on the vertices of a moving mesh that is itself not drawn."""
+    parent = truth.grid("Instancer", location=(12, 0, 0))
+    parent.instance_type, parent.show_instancer_for_render = "VERTS", False
+    parent.show_instancer_for_viewport = False
+    truth.key(parent, "rotation_euler", [(START, (0, 0, 0)), (END, (0.3, 0, 1))])
+    truth.grid("On vertices", scale=(0.1, 0.1, 0.1)).parent = parent
+
+
+def unparented_skin():
+    """Deformed by an armature that is hidden in renders and that the mesh is not a child of."""
+    armature = bpy.data.armatures.new("Loose bones")
+    rig = truth.link("Loose rig", armature, location=(12, 6, 0), rotation_euler=(0, 0.3, 0))
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = armature.edit_bones.new("Bone")
+    bone.head, bone.tail = (0, 0, 0), (0, 0, 1)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.hide_render = True
+    truth.key(rig.pose.bones["Bone"], "rotation_quaternion", [(START, (1, 0, 0, 0)), (END, (0.8, 0.6, 0, 0))])
+    mesh = truth.grid("Loose skin", location=(12, 6, 0.2))
+    mesh.vertex_groups.new(name="Bone").add(range(20), 1.0, "REPLACE")
+    # The last five vertices have no weight and stay where they are.
+    mesh.modifiers.new("Armature", "ARMATURE").object = rig
+
+
+def linked():
+    """Objects out of a library file: their data cannot be edited, and must export all the same."""
+    library = truth.folder() / "library.blend"
+    for name, kind in (("Linked", "MESH"), ("Linked curve", "CURVE")):
+        collection = bpy.data.collections.new(name)
+        if kind == "MESH":
+            obj = bpy.data.objects.new(name, truth.grid_mesh(name))
+            obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+        else:
+            curve = bpy.data.curves.new(name, "CURVE")
+            curve.dimensions, curve.extrude = "2D", 0.2
+            curve.splines.new("POLY").points.add(2)
+            for point, co in zip(curve.splines[0].points, ((0, 0, 0, 1), (1, 0, 0, 1), (0, 2, 0, 1))):
+                point.co = co
+            curve.splines[0].use_cyclic_u = True
+            obj = bpy.data.objects.new(name, curve)
+        material = bpy.data.materials.new(f"{name} diffuse")
+        material.use_nodes = True
+        diffuse = material.node_tree.nodes.new("ShaderNodeBsdfDiffuse")
+        diffuse.inputs["Color"].default_value = (0.1, 0.2, 0.3, 1)
+        material.node_tree.links.new(diffuse.outputs[0], material.node_tree.nodes["Material Output"].inputs[0])
+        obj.data.materials.append(material)
+        collection.objects.link(obj)
+        bpy.data.libraries.write(str(library.with_stem(name)), {collection})
+        bpy.data.collections.remove(collection)
+        bpy.data.objects.remove(obj)
+        bpy.data.materials.remove(material)
+        with bpy.data.libraries.load(str(library.with_stem(name)), link=True) as (_, target):
+            target.collections = [name]
+        instance = truth.link(f"Instance of {name}", None, location=(16, 0, 0))
+        instance.instance_type, instance.instance_collection = "COLLECTION", target.collections[0]
+
+
 def blinking():
     obj = truth.grid("Blinking", location=(0, 6, 0))
     truth.key(obj, "hide_render", [(START, True), (12, False), (20, True)])
@@ -212,6 +271,9 @@ def main():
     morphed()
     converted()
     instanced()
+    on_vertices()
+    unparented_skin()
+    linked()
     blinking()
     hidden()
     deforming()
