@@ -43,24 +43,28 @@ std::string_view included_path(std::string_view line) {
     return line.substr(0, line.find('"'));
 }
 
-void append_file(const std::string& path, ShaderSource& out) {
-    if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) {
-        return;
+// Files guard themselves against being included twice (#ifndef), because an include may stand in a branch
+// that the preprocessor skips. depth stops a file that includes itself without a guard.
+void append_file(const std::string& path, ShaderSource& out, int depth) {
+    constexpr int deepest = 16;
+    if (depth > deepest) {
+        throw Error(ExitCode::failed, fmt::format("the shader {} is included in a circle", path));
     }
-    const size_t index = out.files.size();
-    out.files.push_back(path);
+    const auto known = std::find(out.files.begin(), out.files.end(), path);
+    const auto index = static_cast<size_t>(known - out.files.begin());
+    if (known == out.files.end()) {
+        out.files.push_back(path);
+    }
     const std::string content = read_shader_file(path);
     out.text += fmt::format("#line 1 {}\n", index);
     std::istringstream lines(content);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
         if (const std::string_view include = included_path(line); !include.empty()) {
-            append_file(std::string(include), out);
+            append_file(std::string(include), out, depth + 1);
             out.text += fmt::format("#line {} {}\n", number + 1, index);
-        } else if (!line.starts_with("#pragma once")) {
-            out.text += line;
-            out.text += '\n';
         } else {
+            out.text += line;
             out.text += '\n';
         }
     }
@@ -74,7 +78,7 @@ ShaderSource load_shader(std::string_view path, const Defines& defines) {
     for (const auto& [name, value] : defines) {
         source.text += fmt::format("#define {} {}\n", name, value);
     }
-    append_file(std::string(path), source);
+    append_file(std::string(path), source, 0);
     return source;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/rsm_gather.h"
 
+#include <algorithm>
 #include <array>
 
 namespace bounce::passes {
@@ -12,6 +13,24 @@ void declare(PassBuilder& builder, const GatherInputs& inputs) {
     read_gbuffer(builder, inputs.gbuffer);
     for (const RsmSource& source : inputs.sources) {
         builder.read(source.rsm);
+    }
+}
+
+// Texels a dispatch of the full sum visits at most, for each pixel.
+constexpr int k_texels_a_dispatch = 1 << 15;
+
+// One dispatch for each band of the map's rows; the first overwrites where FIRST_LIGHT is set.
+void dispatch_full_sum(const PassContext& context, const LightPass& light, gl::Defines defines,
+                       const gl::Texture& target) {
+    const int rows = std::max(k_texels_a_dispatch / light.rsm_size, 1);
+    for (int layer = 0; layer < static_cast<int>(light.faces.size()); ++layer) {
+        for (int row = 0; row < light.rsm_size; row += rows) {
+            context.programs.compute("passes/rsm_gather.comp", defines).use();
+            glUniform3i(0, layer, row, std::min(row + rows, light.rsm_size));
+            dispatch_2d(target.desc().width, target.desc().height);
+            finish_writes();
+            defines.erase("FIRST_LIGHT");
+        }
     }
 }
 
@@ -28,11 +47,16 @@ void gather(const PassContext& context, const PassResources& resources, const Ga
         if (inputs.full_sum) defines["FULL_SUM"] = "1";
         if (mode == Mode::low_resolution) defines["LOW_RESOLUTION"] = "1";
         if (mode == Mode::list) defines["LIST"] = "1";
-        context.programs.compute("passes/rsm_gather.comp", defines).use();
         context.uniforms.bind(UBO_FRAME, source.frame);
         context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
         source.pattern->bind_storage(SSBO_PATTERN);
         resources.texture(source.rsm).bind(TEX_RSM);
+        if (inputs.full_sum) {
+            dispatch_full_sum(context, source.light, defines, target);
+            first = false;
+            continue;
+        }
+        context.programs.compute("passes/rsm_gather.comp", defines).use();
         if (mode == Mode::list) {
             glDispatchComputeIndirect(0);
         } else {

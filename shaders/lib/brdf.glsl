@@ -4,14 +4,19 @@
 
 #include "lib/math.glsl"
 
+float fifth_power(float x) {
+    float x2 = x * x;
+    return x2 * x2 * x;
+}
+
 // Factor of Disney's diffuse lobe over Lambert's (Burley 2012, "Physically Based Shading at Disney"); the
 // Principled BSDF of Blender before 4.0 has it. l and v are unit vectors away from the surface.
 float disney_diffuse_factor(float n_dot_l, float n_dot_v, float l_dot_v, float roughness) {
     // cos^2 of the half angle between l and v.
     float cos2_half = 0.5 * (1.0 + l_dot_v);
     float grazing = 2.0 * roughness * cos2_half - 0.5;  // FD90 - 1
-    float from_l = pow(clamp(1.0 - n_dot_l, 0.0, 1.0), 5.0);
-    float from_v = pow(clamp(1.0 - n_dot_v, 0.0, 1.0), 5.0);
+    float from_l = fifth_power(clamp(1.0 - n_dot_l, 0.0, 1.0));
+    float from_v = fifth_power(clamp(1.0 - n_dot_v, 0.0, 1.0));
     return (1.0 + grazing * from_l) * (1.0 + grazing * from_v);
 }
 

@@ -6,25 +6,33 @@
 
 layout(binding = TEX_SHADOW) uniform sampler2DArrayShadow shadow_texture;
 
+// How far the filter below reaches from a point's place in the map, in texels, along s and along t.
+const float SHADOW_REACH = 1.5;
+
 // Share of the light that reaches a surface point, by 3 x 3 texels around it.
 //
-// A texel of the map covers a patch of the receiver; comparing one depth over that patch shadows the
-// receiver by itself by up to the patch's depth range. The point is therefore lifted along the normal by
-// what the filter reaches (1.5 texels, and half for the rounding of the position to a texel centre), times
-// the sine of the incidence, which is the lift that clears the patch exactly; facing the light it is zero.
-float light_visibility(vec3 position, vec3 normal, vec3 to_light) {
+// A texel holds the depth of the receiver where the texel's own ray meets it, not where ours does. On a
+// receiver plane with unit normal n, at depth z along the map's axis, a step (ds, dt) in the map changes that
+// depth by the factor 1 - n.(ds, dt, 0) / n.(s, t, 1). The point is lifted along n by h, which changes its
+// depth by the factor 1 - h / |z n.(s, t, 1)|: so h = z (|n_s| ds + |n_t| dt) clears the filter's reach
+// exactly. It is zero where the receiver lies across the map's axis, and nowhere larger than it has to be.
+// n_s and n_t are along the map's own axes, for a cube those of the face.
+float light_visibility(vec3 position, vec3 normal) {
     vec3 p = light_from_render(position);
+    vec3 n = abs(vec3(dot(normal, light.tangent.xyz), dot(normal, light.bitangent.xyz),
+                      dot(normal, light.axis.xyz)));
     float size = light.map.y;
 #if MAP_KIND == MAP_ORTHOGRAPHIC
-    float texel = 2.0 * light.tangent.w / size;
+    float lift = 2.0 * (n.x * light.tangent.w + n.y * light.bitangent.w) / size;
 #elif MAP_KIND == MAP_PERSPECTIVE
-    float texel = 2.0 * light.axis.w * max(p.z, 0.0) / size;
+    float lift = 2.0 * (n.x + n.y) * light.axis.w * max(p.z, 0.0) / size;
 #else
-    float texel = 2.0 * max(max(abs(p.x), abs(p.y)), abs(p.z)) / size;
+    vec3 a = abs(p);
+    float depth_at = max(max(a.x, a.y), a.z);
+    float along = a.x == depth_at ? n.x : a.y == depth_at ? n.y : n.z;
+    float lift = 2.0 * (n.x + n.y + n.z - along) * depth_at / size;
 #endif
-    float cosine = clamp(dot(normal, to_light), 0.0, 1.0);
-    float sine = sqrt(1.0 - cosine * cosine);
-    p = light_from_render(position + normal * (2.0 * texel * sine));
+    p = light_from_render(position + normal * (SHADOW_REACH * lift));
     float face = 0.0;
     vec2 st;
     float reference;

@@ -81,7 +81,7 @@ void main() {
 #endif
         if (max(max(radiance.r, radiance.g), radiance.b) > 0.0) {
 #ifdef SHADOW
-            radiance *= light_visibility(s.position, s.normal, l);
+            radiance *= light_visibility(s.position, s.normal);
 #endif
             sum += radiance;
         }
