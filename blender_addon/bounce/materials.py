@@ -31,6 +31,8 @@ class Model:
     color_attribute: str = None
     normal_map: bool = False
     issues: list = field(default_factory=list)
+    # Inputs fed by what glTF cannot say; the colour or value that they would have unconnected goes instead.
+    unreadable: set = field(default_factory=set)
     # Data paths in the node tree whose animation is exported.
     animatable: set = field(default_factory=set)
 
@@ -152,7 +154,10 @@ def _use_input(model, node, name, allow_color_attribute=False):
     if sockets.constant(socket) is not None:
         _note_animatable(model, socket)
         return
-    _use_chain(model, f"{sockets.describe(node)}: {name}", textures.follow(socket, allow_color_attribute))
+    chain = textures.follow(socket, allow_color_attribute)
+    if chain.problem and not chain.image_is_taken:
+        model.unreadable.add((node.name, socket.identifier))
+    _use_chain(model, f"{sockets.describe(node)}: {name}", chain)
 
 
 def _require_constant(model, node, name):
@@ -171,7 +176,8 @@ def _note_animatable(model, socket):
 
 def _use_chain(model, what, chain):
     if chain.problem:
-        model.issues.append(f"{what} comes from {chain.problem}")
+        instead = "; its image is exported as it is" if chain.image_is_taken else ""
+        model.issues.append(f"{what} comes from {chain.problem}{instead}")
         return
     model.uv_maps |= chain.uv_maps
     if chain.color_attribute is not None:
@@ -189,44 +195,57 @@ def values(material, model):
         # Nothing, or only light, leaves this surface.
         result["baseColorFactor"] = [0.0, 0.0, 0.0, 1.0]
     else:
-        result.update(_base_values(nodes[model.base]))
+        result.update(_base_values(nodes[model.base], model))
     if model.emission is not None:
-        result["emissive"] = _emission_values(nodes[model.emission])
+        result["emissive"] = _emission_values(nodes[model.emission], model)
     elif model.base is not None and nodes[model.base].type == "BSDF_PRINCIPLED":
         node = nodes[model.base]
-        result["emissive"] = _scaled(sockets.constant(input_of(node, "Emission")), node.inputs["Emission Strength"])
+        result["emissive"] = _scaled(node, "Emission", "Emission Strength", model)
     return {name: value for name, value in result.items() if value is not None}
 
 
-def _base_values(node):
+def _base_values(node, model):
     if node.type != "BSDF_PRINCIPLED":
-        color = sockets.constant(node.inputs["Color"])
+        color = _value(node, "Color", model)
         result = {"baseColorFactor": None if color is None else [*_unit(color), 1.0]}
         if is_metal(node):
-            result.update(metallicFactor=1.0, roughnessFactor=sockets.constant(node.inputs["Roughness"]))
+            result.update(metallicFactor=1.0, roughnessFactor=_value(node, "Roughness", model))
         return result
-    color, alpha = sockets.constant(input_of(node, "Base Color")), sockets.constant(node.inputs["Alpha"])
+    color, alpha = _value(node, "Base Color", model), _value(node, "Alpha", model)
     specular = sockets.constant(input_of(node, "Specular"))
     return {
         "baseColorFactor": None if color is None or alpha is None else [*_unit(color), alpha],
-        "metallicFactor": sockets.constant(node.inputs["Metallic"]),
-        "roughnessFactor": sockets.constant(node.inputs["Roughness"]),
+        "metallicFactor": _value(node, "Metallic", model),
+        "roughnessFactor": _value(node, "Roughness", model),
         "specular": input_of(node, "Specular").default_value if specular is None else specular,
     }
 
 
-def _emission_values(node):
+def _emission_values(node, model):
     if "Strength" in node.inputs:
-        return _scaled(sockets.constant(node.inputs["Color"]), node.inputs["Strength"])
+        return _scaled(node, "Color", "Strength", model)
     # A colour in the surface's place.
     return [float(c) for c in node.outputs[0].default_value][:3] if node.type == "RGB" else None
 
 
-def _scaled(color, strength_socket):
-    strength = sockets.constant(strength_socket)
+def _scaled(node, color_name, strength_name, model):
+    color, strength = _value(node, color_name, model), sockets.constant(node.inputs[strength_name])
+    feeding = sockets.source(input_of(node, color_name))[0]
+    if color is None and feeding is not None and feeding.type == "TEX_IMAGE":
+        # The factor of a textured emission is its strength alone.
+        color = [1.0, 1.0, 1.0]
     if color is None or strength is None:
         return None
     return [max(0.0, c * strength) for c in color]
+
+
+def _value(node, name, model):
+    """The constant of an input; None where a texture says it."""
+    socket = input_of(node, name)
+    value = sockets.constant(socket)
+    if value is None and (node.name, socket.identifier) in model.unreadable:
+        value = sockets.unconnected(socket)
+    return value
 
 
 def _unit(color):

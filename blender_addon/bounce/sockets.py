@@ -12,7 +12,7 @@ def output_node(tree, output_type="OUTPUT_MATERIAL"):
 
 
 def source(socket):
-    """(node, output socket) that feeds this input, past reroutes and muted nodes' plain pass-through; or (None, None)."""
+    """(node, output socket) that feeds this input, past reroutes; or (None, None)."""
     while socket.is_linked:
         link = socket.links[0]
         if link.is_muted:
@@ -37,6 +37,11 @@ def constant(socket):
         if node.type not in {"RGB", "VALUE"}:
             return None
         socket = output
+    return unconnected(socket)
+
+
+def unconnected(socket):
+    """The value that the socket itself holds."""
     value = socket.default_value
     return [float(c) for c in value][:3] if hasattr(value, "__len__") else float(value)
 

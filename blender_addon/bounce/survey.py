@@ -68,7 +68,7 @@ def object_issues(obj):
         yield f"particle system '{system.name}'"
     for modifier in obj.modifiers:
         if modifier.show_render:
-            yield from _modifier_issues(modifier)
+            yield from _modifier_issues(obj, modifier)
     if obj.type == "MESH" and obj.data.shape_keys is not None:
         yield from _shape_key_issues(obj.data.shape_keys)
     if obj.type == "ARMATURE" and any(bone.bbone_segments > 1 for bone in obj.data.bones):
@@ -85,16 +85,29 @@ def object_issues(obj):
                     yield f"light '{obj.data.name}': animation of {path}"
 
 
-def _modifier_issues(modifier):
+def _modifier_issues(obj, modifier):
     if modifier.type == "ARMATURE" and modifier.object is not None:
         if modifier.use_deform_preserve_volume:
             yield f"modifier '{modifier.name}': Preserve Volume (exported as linear skinning)"
         if modifier.use_bone_envelopes:
             yield f"modifier '{modifier.name}': bone envelopes"
+        crowded = _vertices_of_many_bones(obj, modifier.object)
+        if crowded:
+            yield f"{crowded} vertices moved by more than four bones, of which the four strongest are exported"
         if modifier.vertex_group:
             yield f"modifier '{modifier.name}': vertex group mask"
     elif modifier.type in _SIMULATIONS:
         yield f"{_SIMULATIONS[modifier.type]} simulation, exported as it is at the first frame"
+
+
+def _vertices_of_many_bones(obj, armature):
+    if obj.type != "MESH":
+        return 0
+    bones = {group.index for group in obj.vertex_groups if group.name in armature.data.bones}
+    return sum(
+        sum(1 for entry in vertex.groups if entry.group in bones and entry.weight > 0.0) > 4
+        for vertex in obj.data.vertices
+    )
 
 
 def _shape_key_issues(keys):

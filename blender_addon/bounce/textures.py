@@ -16,6 +16,8 @@ class Chain:
         self.uv_maps = set()
         self.color_attribute = None
         self.has_image = False
+        # Blender's exporter takes the first image it meets, whatever lies between it and the shader.
+        self.image_is_taken = False
 
 
 def follow(socket, allow_color_attribute=False):
@@ -29,7 +31,15 @@ def follow(socket, allow_color_attribute=False):
         chain.color_attribute = node.attribute_name
     else:
         _visit(node, chain)
+        chain.image_is_taken = _leads_to_image(node)
     return chain
+
+
+def _leads_to_image(node):
+    if node.type == "TEX_IMAGE":
+        return node.image is not None
+    feeding = (sockets.source(socket)[0] for socket in node.inputs)
+    return any(_leads_to_image(child) for child in feeding if child is not None)
 
 
 def follow_normal(socket):

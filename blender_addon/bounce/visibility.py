@@ -38,6 +38,7 @@ class Visibility:
         self.direct = set()
         self._of_collection = {}
         self.objects = {}
+        self.collections = []
         self._walk_layer(view_layer.layer_collection)
         if scene.camera is not None:
             # Blender renders through a camera wherever it is.
@@ -58,6 +59,7 @@ class Visibility:
         collection = layer_collection.collection
         if collection.hide_render:
             return
+        self.collections.append(collection)
         if not layer_collection.exclude:
             self._add(collection.objects, self.direct)
         for child in layer_collection.children:
@@ -66,6 +68,7 @@ class Visibility:
     def _walk_collection(self, collection, shown):
         if collection.hide_render:
             return
+        self.collections.append(collection)
         self._add(collection.objects, shown)
         for child in collection.children:
             self._walk_collection(child, shown)
@@ -82,9 +85,11 @@ class Visibility:
 
 def evaluate_as_render(scene, view_layer, visibility, edits):
     _show_layers(view_layer.layer_collection, edits)
-    for obj in list(scene.objects) + list(visibility.objects.values()):
+    for collection in visibility.collections:
+        edits.set(collection, "hide_viewport", False)
+    for obj in visibility.objects.values():
         _mute_viewport_hiding(obj, edits)
-        edits.set(obj, "hide_viewport", obj.as_pointer() not in visibility.objects)
+        edits.set(obj, "hide_viewport", False)
     for obj in view_layer.objects:
         if obj.as_pointer() in visibility.objects and obj.hide_get(view_layer=view_layer):
             obj.hide_set(False, view_layer=view_layer)
@@ -102,7 +107,6 @@ def evaluate_as_render(scene, view_layer, visibility, edits):
 
 def _show_layers(layer_collection, edits):
     edits.set(layer_collection, "hide_viewport", False)
-    edits.set(layer_collection.collection, "hide_viewport", layer_collection.collection.hide_render)
     for child in layer_collection.children:
         _show_layers(child, edits)
 

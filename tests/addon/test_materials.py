@@ -81,6 +81,23 @@ def test_textures(scene, name):
     assert "TEXCOORD_0" in attributes and "TEXCOORD_1" not in attributes
 
 
+def test_unreadable_inputs_have_their_unconnected_colour(scene):
+    noise = material(scene, "Noise")["pbrMetallicRoughness"]
+    assert noise["baseColorFactor"] == pytest.approx([0.4, 0.3, 0.2, 1]) and "baseColorTexture" not in noise
+    ramped = material(scene, "Ramped")["pbrMetallicRoughness"]
+    assert "baseColorTexture" in ramped and "baseColorFactor" not in ramped
+
+
+def test_textured_emission_keeps_its_animated_strength(scene):
+    i = index(scene, "Glowing picture")
+    assert "emissiveTexture" in material(scene, "Glowing picture")
+    strength = f"/materials/{i}/extensions/KHR_materials_emissive_strength/emissiveStrength"
+    for frame, wanted in ((1, 1.0), (5, 3.0), (9, 5.0)):
+        moment = scene.gltf.at(frame)
+        assert moment.pointer(f"/materials/{i}/emissiveFactor") * moment.pointer(strength) == pytest.approx(
+            [wanted] * 3, rel=1e-5)
+
+
 def test_attributes_that_no_material_reads_are_left_out(scene):
     assert set(primitive(scene, "Plain")["attributes"]) == {"POSITION", "NORMAL"}
     assert "COLOR_0" in primitive(scene, "Colour read")["attributes"]
@@ -115,6 +132,7 @@ def test_unsupported(scene):
     assert scene.unsupported() == {
         ("Scene", "world 'Sky': Color comes from Sky Texture; exported as black"),
         of("Noise", "Principled BSDF: Base Color comes from Noise Texture"),
+        of("Ramped", "Principled BSDF: Base Color comes from ColorRamp; its image is exported as it is"),
         of("Subsurface", "Principled BSDF: Subsurface"),
         of("Clearcoat", "Principled BSDF: Clearcoat"),
         of("Transmission", "Principled BSDF: Transmission"),
@@ -122,7 +140,8 @@ def test_unsupported(scene):
         of("Mixed", "Mix Shader"),
         of("Glass", "Glass BSDF, exported as a Diffuse BSDF of its colour"),
         of("Smoke", "volume"),
-        of("Box mapped", "Principled BSDF: Base Color comes from Image Texture with box projection"),
+        of("Box mapped", "Principled BSDF: Base Color comes from Image Texture with box projection; "
+           "its image is exported as it is"),
         of("Animated sheen", 'animation of nodes["Principled BSDF"].inputs[13].default_value'),
         ("Hairy", "particle system 'Hair'"),
         ("Hold-out", "holdout"),

@@ -79,6 +79,11 @@ def textured(picture):
         links.new(texture.outputs[0], node.inputs[socket])
         # A second UV map that nothing reads.
         bpy.data.objects[name].data.uv_layers.new(name="Unused")
+    nodes, links, node = material("Glowing picture", "ShaderNodeEmission")
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image = picture
+    links.new(texture.outputs[0], node.inputs["Color"])
+    truth.key(node.inputs["Strength"], "default_value", [(START, 1.0), (END, 5.0)], "LINEAR")
     nodes, links, node = material("Normal mapped")
     texture, normal = nodes.new("ShaderNodeTexImage"), nodes.new("ShaderNodeNormalMap")
     texture.image = picture
@@ -115,6 +120,12 @@ def unsayable(picture):
     nodes, links, node = material("Noise")
     noise = nodes.new("ShaderNodeTexNoise")
     links.new(noise.outputs["Color"], node.inputs["Base Color"])
+    node.inputs["Base Color"].default_value = (0.4, 0.3, 0.2, 1)
+    nodes, links, node = material("Ramped")
+    ramp, texture = nodes.new("ShaderNodeValToRGB"), nodes.new("ShaderNodeTexImage")
+    texture.image = picture
+    links.new(texture.outputs[0], ramp.inputs[0])
+    links.new(ramp.outputs[0], node.inputs["Base Color"])
     for name, socket in (("Subsurface", "Subsurface"), ("Clearcoat", "Clearcoat"), ("Transmission", "Transmission")):
         _, _, node = material(name)
         node.inputs[socket].default_value = 0.5
