@@ -39,8 +39,8 @@ struct Settings {
     float interpolation_angle_deg = 15.0F;
     // ... it lies within this part of a low-resolution cell's width of the pixel's tangent plane, ...
     float interpolation_plane = 0.25F;
-    // ... and within this many cell widths of the pixel.
-    float interpolation_distance = 3.0F;
+    // ... and within this many cell widths of the pixel, as the cell stretches over the tilted surface.
+    float interpolation_distance = 2.0F;
 
     int shadow_size = 2048;  // a cube's faces have half of it
 

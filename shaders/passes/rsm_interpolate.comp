@@ -26,8 +26,11 @@ bool interpolate(ivec2 pixel, Surface s, out vec3 irradiance) {
     vec2 at = (vec2(pixel) - float(step / 2)) / float(step);
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);
-    // A low-resolution cell's width on the surface, seen face on.
+    // A low-resolution cell's width, and how far it stretches over a surface that is seen at an angle (bounded
+    // where it is seen edge on).
     float cell = 2.0 * pixel_footprint(s.position) * float(step);
+    float stretched = cell / max(abs(dot(s.normal, direction_to_viewer(s.position))), 0.1);
+    float reach = frame.interpolation.w * stretched;
     float weights = 0.0;
     int suitable = 0;
     irradiance = vec3(0.0);
@@ -43,7 +46,7 @@ bool interpolate(ivec2 pixel, Surface s, out vec3 irradiance) {
         vec4 g1 = texelFetch(gbuffer1_texture, q_pixel, 0);
         bool similar = dot(unpack_normal(g1), s.normal) >= frame.interpolation.x;
         bool close = abs(dot(offset, s.normal)) <= frame.interpolation.y * cell &&
-                     dot(offset, offset) <= frame.interpolation.w * frame.interpolation.w * cell * cell;
+                     dot(offset, offset) <= reach * reach;
         if (similar && close) {
             float w = (corner.x == 1 ? f.x : 1.0 - f.x) * (corner.y == 1 ? f.y : 1.0 - f.y);
             irradiance += texelFetch(lowres_texture, q, 0).rgb * w;
