@@ -60,6 +60,7 @@ def shape_keys_of(obj):
 
 def sample(scene, objects, models, frames):
     """`objects` by pointer; `models` are the material models by material pointer, with the material."""
+    read_world.forget_images()
     recorder = _Recorder(scene, objects, models)
     for frame in frames:
         scene.frame_set(frame)
