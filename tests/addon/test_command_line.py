@@ -50,6 +50,12 @@ def test_a_failing_hook_fails_the_export(blender, built, tmp_path, hook):
     assert target.read_bytes() == b"what was there before"
 
 
+@pytest.mark.parametrize("scene", ["motion", "materials"])
+def test_an_export_leaves_the_scene_as_it_was(blender, built, tmp_path, scene):
+    blender(built(scene).blend, "--python-exit-code", "3", "-P", SCRIPTS / "restores.py", "--", ADDON,
+            tmp_path / "out.glb")
+
+
 def test_separate_files(export, built, tmp_path):
     export(built("materials").blend, tmp_path / "out.gltf", "--no-draco")
     names = {path.name for path in tmp_path.iterdir()}
