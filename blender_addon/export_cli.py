@@ -43,19 +43,19 @@ def _bounded(low, high):
 
 
 def main():
-    here = Path(__file__).resolve().parent
-    sys.path.insert(0, str(here))
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    # Before anything else imports the add-on, which Blender would otherwise take for changed and load again.
+    module = addon_utils.enable("bounce", default_set=True)
     arguments = vars(parse(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []))
     from bounce.errors import ExportError
+    from bounce.export import export
     from bounce.options import Options
 
-    if not bpy.data.filepath:
-        # Blender goes on with its default scene when it cannot read the file it was given.
-        raise ExportError("no .blend file is open; was it found and could this Blender read it?")
-    if addon_utils.enable("bounce", default_set=True) is None:
+    if module is None:
         raise ExportError("the add-on 'bounce' cannot be enabled")
-    from bounce.export import export
-
+    if not bpy.data.filepath:
+        # Blender's default scene is nobody's.
+        raise ExportError("no .blend file is open; was it found and could this Blender read it?")
     output = arguments.pop("output")
     for line in export(output, Options(**arguments)).lines():
         print(f"bounce: {line}")
