@@ -9,6 +9,10 @@ layout(binding = TEX_SHADOW) uniform sampler2DArrayShadow shadow_texture;
 // How far the filter below reaches from a point's place in the map, in texels, along s and along t.
 const float SHADOW_REACH = 1.5;
 
+// Rounding of positions in render space, whose unit is the scene's diagonal: a few steps of a float at 1. Each
+// comparison gives a receiver this much, so that a surface does not shadow itself by rounding alone.
+const float POSITION_ROUNDING = 1e-6;
+
 // Share of the light that reaches a surface point, by 3 x 3 texels around it.
 //
 // A texel holds the depth of the receiver where the texel's own ray meets it, not where ours does. On a
@@ -38,22 +42,22 @@ float light_visibility(vec3 position, vec3 normal) {
     float reference;
 #if MAP_KIND == MAP_ORTHOGRAPHIC
     st = p.xy / vec2(light.tangent.w, light.bitangent.w);
-    reference = 1.0 - p.z / light.map.z;
+    reference = 1.0 - (p.z - POSITION_ROUNDING) / light.map.z;
 #elif MAP_KIND == MAP_PERSPECTIVE
     if (p.z <= 0.0) {
         return 0.0;
     }
     st = p.xy / (p.z * light.axis.w);
-    reference = light.map.z / p.z;
+    reference = light.map.z / max(p.z - POSITION_ROUNDING, 1e-30);
 #else
     int index;
     float depth;
     cube_face(p, index, st, depth);
     face = float(index);
-    reference = light.map.z / max(depth, 1e-30);
+    reference = light.map.z / max(depth - POSITION_ROUNDING, 1e-30);
 #endif
-    // Depth is rounded to float; a few of its steps at this depth keep equal surfaces lit.
-    reference = min(reference * (1.0 + 4e-6) + 1e-7, 1.0);
+    // The map's depth is a rounded float as well: a few of its steps.
+    reference = min(reference * (1.0 + 4e-6), 1.0);
     vec2 uv = st * 0.5 + 0.5;
     float step = 0.5 / size;
     float lit = 0.0;
