@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
     add_render(app, run_command);
     add_compare(app, run_command);
     add_info(app, run_command);
+    add_evaluate(app, run_command);
 
     try {
         app.parse(argc, argv);

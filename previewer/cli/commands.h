@@ -16,5 +16,6 @@ using Run = std::function<ExitCode()>;
 void add_render(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
+void add_evaluate(CLI::App& app, Run& run);
 
 }  // namespace bounce::cli

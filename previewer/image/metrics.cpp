@@ -116,7 +116,7 @@ Plane luma(const Image& display) {
     return plane;
 }
 
-Metrics compare(const Image& test, const Image& reference) {
+Metrics compare(const Image& test, const Image& reference, HdrFlip hdr_flip) {
     require_same_size(test, reference);
     Metrics metrics;
     metrics.width = test.width;
@@ -133,6 +133,10 @@ Metrics compare(const Image& test, const Image& reference) {
     metrics.psnr_db = psnr_db(test_display, reference_display);
     metrics.ssim = ssim(luma(test_display), luma(reference_display));
     metrics.flip_ldr = mean(flip_ldr(test_display, reference_display));
+    if (hdr_flip == HdrFlip::leave_out) {
+        metrics.flip_hdr = std::numeric_limits<double>::quiet_NaN();
+        return metrics;
+    }
     metrics.flip_hdr = mean(flip_hdr(test, reference));
     const FlipExposures exposures = flip_exposures(reference);
     metrics.flip_hdr_start_exposure = exposures.start;

@@ -40,8 +40,11 @@ struct Metrics {
     int flip_hdr_exposures = 0;
 };
 
+// HDR-FLIP takes most of the time of a comparison; left out, it is NaN.
+enum class HdrFlip { compute, leave_out };
+
 // Throws input_error where the sizes differ.
-[[nodiscard]] Metrics compare(const Image& test, const Image& reference);
+[[nodiscard]] Metrics compare(const Image& test, const Image& reference, HdrFlip hdr_flip = HdrFlip::compute);
 
 // relMSE alone, in the time it takes to read the pixels: mean of (a - b)^2 / (b^2 + 0.01). Rousselle,
 // Knaus and Zwicker, 2011, "Adaptive sampling and reconstruction using greedy error minimization". NaN

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/blender_export.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/process.h"
+#include "evaluate/cache.h"
+#include "evaluate/sha256.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_blend(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".blend";
+}
+
+// Runs after the export in the same Blender: the images, libraries and other files that the .blend
+// refers to, because a change in one of them must lead to a new export.
+std::string list_files_expression(const fs::path& output) {
+    return fmt::format(
+        "import bpy, json; json.dump([bpy.path.abspath(p) for p in bpy.utils.blend_paths(absolute=True, "
+        "packed=False)], open({}, 'w'))",
+        nlohmann::json(output.string()).dump());
+}
+
+// The line that says why, out of all that Blender printed.
+std::string reason_in(const std::string& output) {
+    std::string last_error;
+    size_t start = 0;
+    while (start < output.size()) {
+        const size_t end = std::min(output.find('\n', start), output.size());
+        const std::string line = output.substr(start, end - start);
+        constexpr std::string_view prefix = "bounce: export failed: ";
+        if (line.starts_with(prefix)) {
+            return line.substr(prefix.size());
+        }
+        if (line.find("Error") != std::string::npos || line.starts_with("Warning: File written by newer")) {
+            last_error = line;
+        }
+        start = end + 1;
+    }
+    return last_error.empty() ? "it gave no reason" : last_error;
+}
+
+void export_blend(const fs::path& blend, const fs::path& blender, const fs::path& addon,
+                  const fs::path& target, const fs::path& record) {
+    log::info("exporting {} with Blender", blend.string());
+    AtomicFile output(target);
+    const AtomicFile listing(fs::path(target).replace_extension(".list.json"));  // read here, never committed
+    const ProcessResult result = run_process(
+        {blender.string(), "-b", "--factory-startup", fs::absolute(blend).string(), "-P",
+         (addon / "export_cli.py").string(), "--python-expr", list_files_expression(listing.temporary_path()),
+         "--", output.temporary_path().string()});
+    log::debug("{}", result.output);
+    std::error_code code;
+    // Blender may end with 0 after a failure; an empty file is what AtomicFile made.
+    if (result.exit_code != 0 || fs::file_size(output.temporary_path(), code) == 0 || code) {
+        throw input_error(
+            fmt::format("Blender could not export {}: {}", blend.string(), reason_in(result.output)));
+    }
+    std::ifstream in(listing.temporary_path());
+    const auto paths = nlohmann::json::parse(in, nullptr, false);
+    if (!paths.is_array()) {
+        throw input_error(fmt::format("Blender did not list the files that {} refers to", blend.string()));
+    }
+    output.commit();
+    write_file_hashes(record, hash_files(paths.get<std::vector<fs::path>>()));
+}
+
+}  // namespace
+
+fs::path find_blender(const fs::path& wanted) {
+    const char* variable = std::getenv("BLENDER");
+    const bool from_variable = wanted.empty() && variable != nullptr && *variable != '\0';
+    const std::string name = from_variable ? variable : (wanted.empty() ? "blender" : wanted.string());
+    if (const auto found = find_program(name)) {
+        return *found;
+    }
+    if (!wanted.empty()) {
+        throw Error(ExitCode::failed, fmt::format("--blender {}: there is no such program", name));
+    }
+    throw Error(
+        ExitCode::failed,
+        from_variable
+            ? fmt::format("$BLENDER is {}, but there is no such program", name)
+            : "Blender was not found on PATH; install it, or give its path with --blender or $BLENDER");
+}
+
+fs::path find_addon() {
+    const char* variable = std::getenv("BOUNCE_ADDON");
+    std::vector<fs::path> candidates;
+    if (variable != nullptr && *variable != '\0') {
+        candidates = {variable};
+    } else {
+        const fs::path here = executable_folder();
+        candidates = {here / "../../blender_addon", here / "../share/bounce/blender_addon"};
+    }
+    std::error_code ignored;
+    for (const fs::path& candidate : candidates) {
+        if (fs::is_regular_file(candidate / "export_cli.py", ignored)) {
+            return fs::canonical(candidate);
+        }
+    }
+    throw Error(
+        ExitCode::failed,
+        "the Blender add-on was not found beside the program; set BOUNCE_ADDON to the folder that holds "
+        "export_cli.py");
+}
+
+ResolvedScene resolve_scene(const fs::path& scene, const SceneSourceOptions& options) {
+    if (!is_blend(scene)) {
+        return {scene, scene};
+    }
+    std::error_code ignored;
+    if (!fs::is_regular_file(scene, ignored)) {
+        throw input_error(fmt::format("cannot open {}: there is no such file", scene.string()));
+    }
+    const fs::path blender = find_blender(options.blender);
+    const fs::path addon = find_addon();
+    // The path counts: images are found relative to it. So does which Blender, by its size and date.
+    const fs::path real_blender = fs::canonical(blender);
+    const std::string key = sha256_of_text(
+        fmt::format("{}\n{}\n{}\n{} {} {}", fs::canonical(scene).string(), sha256_of_file(scene),
+                    hash_folder(addon), real_blender.string(), fs::file_size(real_blender),
+                    fs::last_write_time(real_blender).time_since_epoch().count()));
+    const fs::path folder = cache_folder() / "exports";
+    const fs::path target = folder / fmt::format("{}-{}.glb", scene.stem().string(), key.substr(0, 32));
+    const fs::path record = fs::path(target).replace_extension(".json");
+    if (fs::is_regular_file(target, ignored) && files_unchanged(record)) {
+        log::debug("{} was exported before: {}", scene.string(), target.string());
+        return {target, scene};
+    }
+    export_blend(scene, blender, addon, target, record);
+    return {target, scene};
+}
+
+}  // namespace bounce

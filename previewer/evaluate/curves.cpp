@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/curves.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace bounce {
+
+CurvePoint make_point(std::string label, std::vector<FrameError> frames) {
+    assert(!frames.empty());
+    CurvePoint point;
+    point.label = std::move(label);
+    for (const FrameError& frame : frames) {
+        point.seconds += frame.seconds;
+        point.relmse += frame.relmse;
+        point.flip_ldr += frame.flip_ldr;
+        point.bias += frame.bias;
+    }
+    const auto count = static_cast<double>(frames.size());
+    point.seconds /= count;
+    point.relmse /= count;
+    point.flip_ldr /= count;
+    point.bias /= count;
+    point.frames = std::move(frames);
+    return point;
+}
+
+std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points) {
+    std::vector<bool> front;
+    front.reserve(points.size());
+    for (const auto& [seconds, error] : points) {
+        const bool finite = std::isfinite(seconds) && std::isfinite(error);
+        front.push_back(finite && std::none_of(points.begin(), points.end(), [&](const auto& other) {
+                            return other.first <= seconds && other.second <= error &&
+                                   (other.first < seconds || other.second < error);
+                        }));
+    }
+    return front;
+}
+
+void mark_pareto(std::vector<Curve>& curves) {
+    std::vector<std::pair<double, double>> points;
+    for (const Curve& curve : curves) {
+        for (const CurvePoint& point : curve.points) {
+            points.emplace_back(point.seconds, point.relmse);
+        }
+    }
+    const std::vector<bool> front = pareto_front(points);
+    size_t index = 0;
+    for (Curve& curve : curves) {
+        for (CurvePoint& point : curve.points) {
+            point.pareto = front[index++];
+        }
+    }
+}
+
+std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> ladder, double error) {
+    // NaN compares false and is dropped with what has no logarithm.
+    std::erase_if(ladder, [](const auto& point) {
+        return !(point.first > 0.0 && point.second > 0.0 && std::isfinite(point.first) &&
+                 std::isfinite(point.second));
+    });
+    if (ladder.size() < 2 || !(error > 0.0) || !std::isfinite(error)) {
+        return std::nullopt;
+    }
+    std::sort(ladder.begin(), ladder.end());
+    if (ladder.front().second <= error) {
+        return EqualError{ladder.front().first, EqualErrorKind::fastest_point};
+    }
+    const auto after = std::find_if(ladder.begin() + 1, ladder.end(),
+                                    [&](const auto& point) { return point.second <= error; });
+    const bool beyond = after == ladder.end();
+    const auto& [t1, e1] = beyond ? *(ladder.end() - 1) : *after;
+    const auto& [t0, e0] = beyond ? *(ladder.end() - 2) : *(after - 1);
+    if (!(e1 < e0) || !(t1 > t0)) {
+        return std::nullopt;
+    }
+    const double along = std::log(error / e0) / std::log(e1 / e0);
+    const double seconds = t0 * std::pow(t1 / t0, along);
+    return EqualError{seconds, beyond ? EqualErrorKind::extrapolated : EqualErrorKind::interpolated};
+}
+
+std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves) {
+    std::vector<std::pair<double, double>> ladder;
+    for (const Curve& curve : curves) {
+        if (curve.reference_engine) {
+            for (const CurvePoint& point : curve.points) {
+                ladder.emplace_back(point.seconds, point.relmse);
+            }
+        }
+    }
+    std::vector<Speedup> speedups;
+    for (const Curve& curve : curves) {
+        if (curve.reference_engine) {
+            continue;
+        }
+        for (const CurvePoint& point : curve.points) {
+            if (const auto equal = time_at_error(ladder, point.relmse); equal && point.seconds > 0.0) {
+                speedups.push_back({curve.name, point.label, point.relmse, point.seconds, equal->seconds,
+                                    equal->seconds / point.seconds, equal->kind});
+            }
+        }
+    }
+    return speedups;
+}
+
+}  // namespace bounce

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Error against run time as plain data, and what follows from it. No files, no processes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+// One frame rendered one way, against its reference.
+struct FrameError {
+    int frame = 1;
+    double seconds = 0.0;  // steady state
+    double relmse = 0.0;
+    double relmse_exposed = 0.0;
+    double flip_ldr = 0.0;
+    double ssim = 0.0;
+    double psnr_db = 0.0;
+    double bias = 0.0;
+    size_t not_finite = 0;
+};
+
+// One way of rendering: means over its frames.
+struct CurvePoint {
+    std::string label;
+    double seconds = 0.0;
+    double setup_seconds = 0.0;    // of these, before the first sample; 0 where not told apart
+    double startup_seconds = 0.0;  // once a run, not part of seconds
+    double relmse = 0.0;
+    double flip_ldr = 0.0;
+    double bias = 0.0;
+    bool pareto = false;
+    std::vector<FrameError> frames;
+};
+
+struct Curve {
+    std::string name;
+    bool reference_engine = false;  // the ladder that others are measured against
+    std::vector<CurvePoint> points;
+};
+
+// A point from its frames: arithmetic means. Needs at least one frame.
+[[nodiscard]] CurvePoint make_point(std::string label, std::vector<FrameError> frames);
+
+// For each point whether no other is at least as fast and as exact, and better in one of both. A point
+// whose time or error is not a number is never on the front.
+[[nodiscard]] std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& seconds_and_error);
+
+// Sets CurvePoint::pareto over all curves together, by relMSE.
+void mark_pareto(std::vector<Curve>& curves);
+
+enum class EqualErrorKind {
+    interpolated,   // between two points of the ladder
+    extrapolated,   // beyond its most exact point, along the slope of its last segment
+    fastest_point,  // the ladder's fastest point is already at least as exact
+};
+
+struct EqualError {
+    double seconds = 0.0;
+    EqualErrorKind kind = EqualErrorKind::interpolated;
+};
+
+// The time at which the ladder (seconds, error; any order) reaches the error, by straight lines between
+// the logarithms. Nothing where the ladder has fewer than two usable points, where the error is not
+// positive, or where the ladder does not get better with time.
+[[nodiscard]] std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> ladder,
+                                                      double error);
+
+struct Speedup {
+    std::string curve;
+    std::string label;
+    double relmse = 0.0;
+    double bounce_seconds = 0.0;
+    double cycles_seconds = 0.0;
+    double ratio = 0.0;  // cycles_seconds / bounce_seconds
+    EqualErrorKind kind = EqualErrorKind::interpolated;
+};
+
+// Every point of the other curves against the ladder of the reference engine.
+[[nodiscard]] std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves);
+
+}  // namespace bounce

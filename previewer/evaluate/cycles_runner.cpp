@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/cycles_runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/process.h"
+#include "evaluate/blender_export.h"
+#include "evaluate/embedded.h"
+#include "evaluate/scratch_folder.h"
+#include "evaluate/sha256.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view k_event_prefix = "BOUNCE ";
+
+json job_to_json(const CyclesJob& job) {
+    json frames = json::array();
+    for (const CyclesRender& render : job.renders) {
+        if (frames.empty() || frames.back()["frame"] != render.frame) {
+            frames.push_back({{"frame", render.frame}, {"renders", json::array()}});
+        }
+        frames.back()["renders"].push_back({{"spp", render.spp},
+                                            {"seed", render.seed},
+                                            {"repeat", render.repeat},
+                                            {"output", render.output.string()}});
+    }
+    json result{{"scene", fs::absolute(job.scene).string()},
+                {"width", job.width},
+                {"height", job.height},
+                {"diffuse_bounces", job.diffuse_bounces},
+                {"frames", frames}};
+    return result;
+}
+
+// Reads the lines that Blender prints while it works through a job.
+class Listener {
+  public:
+    Listener(const CyclesJob& job, const std::function<void(const CyclesRender&)>& on_render)
+        : on_render_(on_render) {
+        report_.renders = job.renders;
+    }
+
+    void line(std::string_view text) {
+        // Blender's own status lines end without a newline where the script's output follows.
+        const size_t at = text.find(k_event_prefix);
+        if (at == std::string_view::npos) {
+            // "Sample 0/16": the scene is with the device, sampling starts.
+            if (text.find("| Sample 0/") != std::string_view::npos && !sampling_started_) {
+                sampling_started_ = Clock::now();
+            }
+            return;
+        }
+        const json event = json::parse(text.substr(at + k_event_prefix.size()), nullptr, false);
+        if (event.is_object()) {
+            handle(event);
+        }
+    }
+
+    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+    [[nodiscard]] bool complete() const { return done_ == report_.renders.size(); }
+    [[nodiscard]] CyclesReport take() { return std::move(report_); }
+
+  private:
+    void handle(const json& event) {
+        const std::string kind = event.value("event", "");
+        if (kind == "ready") {
+            ready(event);
+        } else if (kind == "begin") {
+            begin_ = Clock::now();
+            sampling_started_.reset();
+        } else if (kind == "warm_up") {
+            if (report_.first_render_seconds == 0.0) {
+                report_.first_render_seconds = event.at("seconds");
+            }
+        } else if (kind == "render" && done_ < report_.renders.size()) {
+            CyclesRender& render = report_.renders[done_++];
+            render.seconds = event.at("seconds");
+            if (sampling_started_) {
+                render.setup_seconds = std::chrono::duration<double>(*sampling_started_ - begin_).count();
+            }
+            if (on_render_) {
+                on_render_(render);
+            }
+        } else if (kind == "note") {
+            report_.notes.push_back(event.at("message"));
+        } else if (kind == "error") {
+            error_ = event.at("message");
+        }
+    }
+
+    void ready(const json& event) {
+        report_.version = event.at("version");
+        report_.threads = event.at("threads");
+        report_.files = event.at("files").get<std::vector<fs::path>>();
+        report_.startup_seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+        const json& view = event.at("view");
+        report_.view = {view.at("display_device"), view.at("view_transform"), view.at("look"),
+                        view.at("exposure"), view.at("gamma")};
+    }
+
+    const std::function<void(const CyclesRender&)>& on_render_;
+    CyclesReport report_;
+    size_t done_ = 0;
+    std::optional<std::string> error_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point begin_ = start_;
+    std::optional<Clock::time_point> sampling_started_;
+};
+
+std::string last_line(const std::string& output) {
+    const size_t end = output.find_last_not_of("\r\n ");
+    if (end == std::string::npos) {
+        return "it printed nothing";
+    }
+    const size_t start = output.find_last_of("\r\n", end);
+    return output.substr(start == std::string::npos ? 0 : start + 1,
+                         end - (start == std::string::npos ? 0 : start));
+}
+
+}  // namespace
+
+CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
+                        const std::function<void(const CyclesRender&)>& on_render) {
+    const ScratchFolder scratch;
+    const bool blend = job.scene.extension() == ".blend";
+    json description = job_to_json(job);
+    if (!blend) {
+        description["addon"] = find_addon().string();  // its Draco library decodes the file
+    }
+    write_text_file(scratch / "cycles_render.py", embedded::cycles_render_py());
+    write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
+    write_text_file(scratch / "job.json", description.dump());
+
+    std::vector<std::string> command{blender.string(), "-b", "--factory-startup"};
+    if (blend) {
+        command.push_back(fs::absolute(job.scene).string());
+    }
+    command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch / "cycles_render.py").string(),
+                                   "--", (scratch / "job.json").string()});
+    Listener listener(job, on_render);
+    const ProcessResult result = run_process(command, [&](std::string_view line) { listener.line(line); });
+    if (result.exit_code != 0 || listener.error() || !listener.complete()) {
+        log::debug("{}", result.output);
+        throw input_error(fmt::format("Cycles could not render {}: {}", job.scene.string(),
+                                      listener.error()
+                                          ? *listener.error()
+                                          : fmt::format("Blender ended with code {} after \"{}\"",
+                                                        result.exit_code, last_line(result.output))));
+    }
+    return listener.take();
+}
+
+std::string blender_version(const fs::path& blender) {
+    const ProcessResult result = run_process({blender.string(), "--version"});
+    if (result.exit_code != 0 || !result.output.starts_with("Blender ")) {
+        throw Error(ExitCode::failed, fmt::format("{} --version does not answer like Blender: {}",
+                                                  blender.string(), last_line(result.output)));
+    }
+    std::string version = result.output.substr(0, result.output.find('\n'));
+    constexpr std::string_view key = "build hash: ";
+    if (const size_t at = result.output.find(key); at != std::string::npos) {
+        const size_t start = at + key.size();
+        version += " " + result.output.substr(start, result.output.find('\n', start) - start);
+    }
+    return version;
+}
+
+std::string cycles_scripts_hash() {
+    return sha256_of_text(std::string(embedded::cycles_render_py()) +
+                          std::string(embedded::cycles_import_gltf_py()));
+}
+
+}  // namespace bounce

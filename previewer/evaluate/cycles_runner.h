@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/view_transform.h"
+
+namespace bounce {
+
+// One picture by Cycles. Inputs first, results below.
+struct CyclesRender {
+    int frame = 1;
+    int spp = 1;
+    int seed = 1;
+    int repeat = 1;                // renders, of which seconds is the median
+    std::filesystem::path output;  // a scene-linear EXR of 32-bit floats is written here
+    double seconds = 0.0;        // of one render in steady state: a later render of a frame already rendered
+    double setup_seconds = 0.0;  // of those, until the first sample starts: scene transfer and BVH
+};
+
+struct CyclesJob {
+    std::filesystem::path scene;  // .blend, .glb or .gltf
+    int width = 640;
+    int height = 360;
+    int diffuse_bounces = 1;
+    std::vector<CyclesRender> renders;  // those of one frame stand together
+};
+
+struct CyclesReport {
+    std::string version;  // "3.4.1"
+    int threads = 0;
+    ViewTransform view;                        // the scene's own
+    std::vector<std::filesystem::path> files;  // that the scene refers to
+    std::vector<std::string> notes;            // what was changed or could not be carried over
+    double startup_seconds = 0.0;              // from the start of the process to the open scene
+    double first_render_seconds = 0.0;         // the very first render, one sample
+    std::vector<CyclesRender> renders;         // as asked for, results filled in
+};
+
+// Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
+// diffuse_bounces diffuse bounces, no caustics, no clamping, no denoiser, no adaptive sampling; pixel
+// filter Blackman-Harris, 1.5 px (evaluate/cycles_render.py says how each is set). on_render is called
+// after each picture. Throws input_error where Blender cannot render the scene.
+[[nodiscard]] CyclesReport run_cycles(const CyclesJob& job, const std::filesystem::path& blender,
+                                      const std::function<void(const CyclesRender&)>& on_render = {});
+
+// First line of `blender --version` and its build hash; names the engine in cache keys. Throws Error
+// (failed) where the program does not answer like Blender.
+[[nodiscard]] std::string blender_version(const std::filesystem::path& blender);
+
+// Hash of the scripts that render: a changed setting in them makes other references.
+[[nodiscard]] std::string cycles_scripts_hash();
+
+}  // namespace bounce

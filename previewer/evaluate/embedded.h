@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files that the build puts into the program, so that it needs none beside it (embed.cmake).
+#pragma once
+
+#include <string_view>
+
+namespace bounce::embedded {
+
+[[nodiscard]] std::string_view cycles_render_py();
+[[nodiscard]] std::string_view cycles_import_gltf_py();
+[[nodiscard]] std::string_view report_html();
+[[nodiscard]] std::string_view report_js();
+[[nodiscard]] std::string_view chart_js();  // Chart.js 3, minified, with its notice
+
+}  // namespace bounce::embedded

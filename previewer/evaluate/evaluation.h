@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Error against run time: renders frames of a scene with Bounce and with Cycles and measures both.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "evaluate/blender_export.h"
+#include "evaluate/curves.h"
+#include "evaluate/cycles_runner.h"
+#include "evaluate/machine.h"
+#include "evaluate/preview_run.h"
+#include "evaluate/reference.h"
+#include "image/image.h"
+
+namespace bounce {
+
+struct EvaluateOptions {
+    std::filesystem::path scene;  // .blend, .glb or .gltf
+    std::vector<int> frames{1};   // Blender's numbers
+    int width = 640;
+    int height = 360;
+    int reference_spp = 1024;  // even: two halves are rendered
+    std::vector<int> cycles_spp{1, 4, 16, 64};
+    int diffuse_bounces = 1;
+    int repeat = 5;  // renders of each frame by Bounce, of which the median counts
+    SceneSourceOptions source;
+    std::filesystem::path bounce;  // the program whose `render` command draws
+    std::vector<PreviewRun> runs = default_preview_runs();
+    std::string command;  // as typed, for the report
+};
+
+// One frame drawn one way, for the report's pictures.
+struct Picture {
+    std::string curve;
+    std::string label;
+    int frame = 1;
+    Image image;  // scene-linear
+};
+
+struct Evaluation {
+    std::string scene;  // file name
+    std::string command;
+    std::string date;  // UTC, ISO 8601
+    int width = 0;
+    int height = 0;
+    int reference_spp = 0;
+    int diffuse_bounces = 1;
+    std::vector<int> frames;
+    Machine machine;
+    std::string gl_vendor, gl_renderer, gl_version;
+    std::string blender;
+    CyclesReport cycles;                // version, threads, times beside the frames
+    std::vector<Reference> references;  // one a frame
+    std::vector<Curve> curves;          // Cycles first
+    std::vector<Speedup> speedups;
+    std::vector<Picture> pictures;
+};
+
+// Throws input_error where the scene cannot be rendered, Error where a program fails.
+[[nodiscard]] Evaluation evaluate(const EvaluateOptions& options);
+
+}  // namespace bounce

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/preview_run.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "core/process.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+// The program's own sentence: what follows "error: ", else the last line.
+std::string sentence_in(const std::string& output) {
+    constexpr std::string_view prefix = "error: ";
+    size_t start = output.rfind(prefix);
+    if (start != std::string::npos) {
+        start += prefix.size();
+        return output.substr(start, output.find('\n', start) - start);
+    }
+    const size_t end = output.find_last_not_of('\n');
+    if (end == std::string::npos) {
+        return "it printed nothing";
+    }
+    const size_t line = output.rfind('\n', end);
+    return output.substr(line == std::string::npos ? 0 : line + 1,
+                         end - (line == std::string::npos ? 0 : line) + 1);
+}
+
+std::string frame_file(int frame) {
+    return fmt::format("frame.{:04}.exr", frame);
+}
+
+PreviewResult read_stats(const fs::path& stats, const std::vector<int>& frames, const fs::path& folder,
+                         double process_seconds) {
+    std::ifstream in(stats);
+    const auto json = nlohmann::json::parse(in);
+    PreviewResult result;
+    double rendering = 0.0;
+    for (const auto& item : json.at("frames")) {
+        PreviewFrame frame;
+        frame.frame = item.at("frame").get<int>();
+        frame.seconds = item.at("wall_ms").get<double>() / 1000.0;
+        frame.image = folder / frame_file(frame.frame);
+        if (item.contains("wall_ms_all")) {
+            for (const auto& wall : item["wall_ms_all"]) {
+                rendering += wall.get<double>() / 1000.0;
+            }
+        } else {
+            rendering += frame.seconds;
+        }
+        result.frames.push_back(frame);
+    }
+    std::vector<int> rendered;
+    std::transform(result.frames.begin(), result.frames.end(), std::back_inserter(rendered),
+                   [](const PreviewFrame& frame) { return frame.frame; });
+    if (rendered != frames) {
+        throw Error(ExitCode::failed, fmt::format("{} tells of frames {}, not {}", stats.string(),
+                                                  fmt::join(rendered, ", "), fmt::join(frames, ", ")));
+    }
+    const auto gl = json.value("gl", nlohmann::json::object());
+    result.gl_vendor = gl.value("vendor", "");
+    result.gl_renderer = gl.value("renderer", "");
+    result.gl_version = gl.value("version", "");
+    result.startup_seconds = std::max(process_seconds - rendering, 0.0);
+    return result;
+}
+
+}  // namespace
+
+std::vector<PreviewRun> default_preview_runs() {
+    std::vector<PreviewRun> runs{{"Direct light only", "direct", {"--technique", "direct"}}};
+    for (const auto& [name, interpolation] :
+         {std::pair{"RSM, interpolated", "on"}, std::pair{"RSM, every pixel", "off"}}) {
+        for (const int samples : {112, 224, 448, 1024}) {
+            runs.push_back({name,
+                            fmt::format("{} samples", samples),
+                            {"--technique", "rsm", "--rsm-samples", std::to_string(samples),
+                             "--rsm-interpolation", interpolation}});
+        }
+    }
+    return runs;
+}
+
+PreviewResult run_preview(const fs::path& bounce, const fs::path& scene, const PreviewRun& run,
+                          const std::vector<int>& frames, int width, int height, int repeat,
+                          const fs::path& folder) {
+    fs::create_directories(folder);
+    const fs::path stats = folder / "stats.json";
+    std::vector<std::string> command{bounce.string(),
+                                     "render",
+                                     scene.string(),
+                                     "-o",
+                                     (folder / "frame.####.exr").string(),
+                                     "--frames",
+                                     fmt::format("{}", fmt::join(frames, ",")),
+                                     "--size",
+                                     fmt::format("{}x{}", width, height),
+                                     "--repeat",
+                                     std::to_string(repeat),
+                                     "--no-pass-times",
+                                     "--stats",
+                                     stats.string()};
+    command.insert(command.end(), run.render_arguments.begin(), run.render_arguments.end());
+    log::debug("{}", fmt::join(command, " "));
+    const ProcessResult result = run_process(command);
+    if (result.exit_code != 0) {
+        // The causes that are the user's to mend keep their codes; another one is ours.
+        const bool known = result.exit_code == static_cast<int>(ExitCode::input_refused) ||
+                           result.exit_code == static_cast<int>(ExitCode::no_opengl);
+        throw Error(known ? static_cast<ExitCode>(result.exit_code) : ExitCode::failed,
+                    fmt::format("{}, {}: bounce render ended with code {}: {}", run.name, run.label,
+                                result.exit_code, sentence_in(result.output)));
+    }
+    try {
+        return read_stats(stats, frames, folder, result.seconds);
+    } catch (const nlohmann::json::exception& error) {
+        throw Error(ExitCode::failed, fmt::format("{}, {}: {} cannot be used: {}", run.name, run.label,
+                                                  stats.string(), error.what()));
+    }
+}
+
+}  // namespace bounce

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+// One way in which Bounce renders the frames: a point of a curve.
+struct PreviewRun {
+    std::string name;   // of the curve
+    std::string label;  // of the point
+    std::vector<std::string> render_arguments;
+};
+
+// The runs of `bounce evaluate`: direct light alone, and reflective shadow maps with 112 to 1,024
+// samples, interpolated in screen space and gathered in every pixel.
+[[nodiscard]] std::vector<PreviewRun> default_preview_runs();
+
+struct PreviewFrame {
+    int frame = 1;
+    double seconds = 0.0;         // median of the repeated renders
+    std::filesystem::path image;  // scene-linear EXR
+};
+
+struct PreviewResult {
+    std::vector<PreviewFrame> frames;
+    double startup_seconds = 0.0;  // the process's time outside the repeated renders
+    std::string gl_vendor, gl_renderer, gl_version;
+};
+
+// Renders the frames with the program's own `render` command in a process of its own, and reads its
+// stats.json. bounce is the program's path; images are written below folder. Throws Error where it fails:
+// input_refused and no_opengl as the program says, failed otherwise.
+[[nodiscard]] PreviewResult run_preview(const std::filesystem::path& bounce,
+                                        const std::filesystem::path& scene, const PreviewRun& run,
+                                        const std::vector<int>& frames, int width, int height, int repeat,
+                                        const std::filesystem::path& folder);
+
+}  // namespace bounce

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/report.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/atomic_file.h"
+#include "image/image_io.h"
+
+namespace bounce {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+std::string kind_name(EqualErrorKind kind) {
+    switch (kind) {
+        case EqualErrorKind::interpolated:
+            return "interpolated";
+        case EqualErrorKind::extrapolated:
+            return "extrapolated";
+        case EqualErrorKind::fastest_point:
+            return "fastest_point";
+    }
+    return {};
+}
+
+double mean_of(const std::vector<Reference>& references, double Reference::*member) {
+    double sum = 0.0;
+    for (const Reference& reference : references) {
+        sum += reference.*member;
+    }
+    return sum / static_cast<double>(references.size());
+}
+
+ordered_json reference_json(const Evaluation& evaluation) {
+    ordered_json frames = ordered_json::array();
+    for (const Reference& reference : evaluation.references) {
+        frames.push_back({{"frame", reference.frame},
+                          {"seconds", number(reference.seconds)},
+                          {"noise_floor_relmse", number(reference.noise_floor)},
+                          {"cached", reference.cached}});
+    }
+    return {{"engine", "Cycles (CPU)"},
+            {"version", evaluation.cycles.version},
+            {"spp", evaluation.reference_spp},
+            {"seconds", number(mean_of(evaluation.references, &Reference::seconds))},
+            {"noise_floor_relmse", number(mean_of(evaluation.references, &Reference::noise_floor))},
+            {"diffuse_bounces", evaluation.diffuse_bounces},
+            {"threads", evaluation.cycles.threads},
+            {"startup_seconds", number(evaluation.cycles.startup_seconds)},
+            {"first_render_seconds", number(evaluation.cycles.first_render_seconds)},
+            {"frames", frames}};
+}
+
+ordered_json point_json(const CurvePoint& point) {
+    ordered_json frames = ordered_json::array();
+    for (const FrameError& frame : point.frames) {
+        frames.push_back({{"frame", frame.frame},
+                          {"seconds", number(frame.seconds)},
+                          {"relmse", number(frame.relmse)},
+                          {"relmse_exposed", number(frame.relmse_exposed)},
+                          {"flip_ldr", number(frame.flip_ldr)},
+                          {"ssim", number(frame.ssim)},
+                          {"psnr_db", number(frame.psnr_db)},
+                          {"bias", number(frame.bias)},
+                          {"not_finite", frame.not_finite}});
+    }
+    return {{"label", point.label},
+            {"seconds", number(point.seconds)},
+            {"relmse", number(point.relmse)},
+            {"flip_ldr", number(point.flip_ldr)},
+            {"bias", number(point.bias)},
+            {"pareto", point.pareto},
+            {"setup_seconds", number(point.setup_seconds)},
+            {"startup_seconds", number(point.startup_seconds)},
+            {"frames", frames}};
+}
+
+// A part of a file name: "RSM, every pixel" becomes "rsm_every_pixel".
+std::string slug(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        } else if (!result.empty() && result.back() != '_') {
+            result += '_';
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+ordered_json results_json(const Evaluation& evaluation) {
+    ordered_json curves = ordered_json::array();
+    for (const Curve& curve : evaluation.curves) {
+        ordered_json points = ordered_json::array();
+        for (const CurvePoint& point : curve.points) {
+            points.push_back(point_json(point));
+        }
+        curves.push_back(
+            {{"name", curve.name}, {"reference_engine", curve.reference_engine}, {"points", points}});
+    }
+    ordered_json speedups = ordered_json::array();
+    for (const Speedup& speedup : evaluation.speedups) {
+        speedups.push_back({{"curve", speedup.curve},
+                            {"label", speedup.label},
+                            {"relmse", number(speedup.relmse)},
+                            {"bounce_seconds", number(speedup.bounce_seconds)},
+                            {"cycles_seconds", number(speedup.cycles_seconds)},
+                            {"ratio", number(speedup.ratio)},
+                            {"cycles_time", kind_name(speedup.kind)}});
+    }
+    const ViewTransform& view = evaluation.cycles.view;
+    return {{"scene", evaluation.scene},
+            {"reference", reference_json(evaluation)},
+            {"curves", curves},
+            {"speedup_at_equal_error", speedups},
+            {"width", evaluation.width},
+            {"height", evaluation.height},
+            {"frames", evaluation.frames},
+            {"machine",
+             {{"cpu", evaluation.machine.cpu},
+              {"threads", evaluation.machine.threads},
+              {"system", evaluation.machine.system}}},
+            {"gl",
+             {{"vendor", evaluation.gl_vendor},
+              {"renderer", evaluation.gl_renderer},
+              {"version", evaluation.gl_version}}},
+            {"blender", evaluation.blender},
+            {"view", {{"transform", view.view_transform}, {"look", view.look}, {"exposure", view.exposure}}},
+            {"notes", evaluation.cycles.notes},
+            {"command", evaluation.command},
+            {"date", evaluation.date}};
+}
+
+std::string results_csv(const Evaluation& evaluation) {
+    std::string csv = "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,ssim,psnr_db,bias,pareto\n";
+    for (const Curve& curve : evaluation.curves) {
+        for (const CurvePoint& point : curve.points) {
+            csv +=
+                fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{}\n", curve.name, point.label,
+                            point.seconds, point.relmse, point.flip_ldr, point.bias, point.pareto);
+            for (const FrameError& frame : point.frames) {
+                csv +=
+                    fmt::format("\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},\n",
+                                curve.name, point.label, frame.frame, frame.seconds, frame.relmse,
+                                frame.relmse_exposed, frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias);
+            }
+        }
+    }
+    return csv;
+}
+
+std::string results_table(const Evaluation& evaluation) {
+    std::string table = fmt::format("{:<22}{:<14}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point", "s/frame",
+                                    "relMSE", "FLIP", "bias", "time to equal error");
+    for (const Curve& curve : evaluation.curves) {
+        for (const CurvePoint& point : curve.points) {
+            const auto speedup = std::find_if(
+                evaluation.speedups.begin(), evaluation.speedups.end(),
+                [&](const Speedup& item) { return item.curve == curve.name && item.label == point.label; });
+            std::string equal;
+            if (speedup != evaluation.speedups.end()) {
+                const bool at_most = speedup->kind == EqualErrorKind::fastest_point;
+                equal = fmt::format("Cycles {}{:.3g} s, ratio {}{:.3g}{}", at_most ? "<= " : "",
+                                    speedup->cycles_seconds, at_most ? "<= " : "", speedup->ratio,
+                                    speedup->kind == EqualErrorKind::extrapolated ? " (extrapolated)" : "");
+            }
+            table += fmt::format("{:<22}{:<14}{:>11.4f}{:>12.3g}{:>9.4f}{:>+8.2f}% {}{}\n", curve.name,
+                                 point.label, point.seconds, point.relmse, point.flip_ldr, 100.0 * point.bias,
+                                 point.pareto ? "* " : "  ", equal);
+        }
+    }
+    table += fmt::format(
+        "* on the Pareto front. Reference: Cycles {}, {} spp, {:.1f} s a frame, noise floor {:.2g}.\n",
+        evaluation.cycles.version, evaluation.reference_spp,
+        mean_of(evaluation.references, &Reference::seconds),
+        mean_of(evaluation.references, &Reference::noise_floor));
+    return table;
+}
+
+std::vector<std::pair<std::string, std::string>> shown_points(const Evaluation& evaluation) {
+    const auto more_exact = [](const CurvePoint& a, const CurvePoint& b) { return a.relmse < b.relmse; };
+    std::vector<std::pair<std::string, std::string>> shown;
+    const CurvePoint* best = nullptr;
+    for (const Curve& curve : evaluation.curves) {
+        if (!curve.reference_engine && !curve.points.empty()) {
+            const auto point = std::min_element(curve.points.begin(), curve.points.end(), more_exact);
+            shown.emplace_back(curve.name, point->label);
+            best = best == nullptr || more_exact(*point, *best) ? &*point : best;
+        }
+    }
+    std::reverse(shown.begin(), shown.end());  // direct light alone is the least interesting
+    for (const Curve& curve : evaluation.curves) {
+        if (curve.reference_engine && !curve.points.empty()) {
+            const auto nearest = std::min_element(
+                curve.points.begin(), curve.points.end(), [&](const CurvePoint& a, const CurvePoint& b) {
+                    const auto distance = [&](const CurvePoint& point) {
+                        return best == nullptr ? 0.0 : std::abs(std::log(point.seconds / best->seconds));
+                    };
+                    return distance(a) < distance(b);
+                });
+            shown.emplace_back(curve.name, nearest->label);
+        }
+    }
+    return shown;
+}
+
+void write_report(const Evaluation& evaluation, const std::filesystem::path& folder) {
+    const auto shown = shown_points(evaluation);
+    const auto attributes = [&](int frame) {
+        return ImageAttributes{{"bounce:scene", evaluation.scene}, {"bounce:frame", std::to_string(frame)}};
+    };
+    for (const Reference& reference : evaluation.references) {
+        write_image(folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
+                    attributes(reference.frame));
+    }
+    for (const Picture& picture : evaluation.pictures) {
+        if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {
+            write_image(
+                folder / "frames" /
+                    fmt::format("{}.{:04}.exr", slug(picture.curve + " " + picture.label), picture.frame),
+                picture.image, attributes(picture.frame));
+        }
+    }
+    write_text_file(folder / "results.csv", results_csv(evaluation));
+    write_text_file(folder / "index.html", results_html(evaluation));
+    // Last: where it stands the report is whole.
+    write_text_file(folder / "results.json", results_json(evaluation).dump(2) + "\n");
+}
+
+}  // namespace bounce

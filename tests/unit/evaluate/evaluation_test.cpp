@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/evaluation.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "environment.h"
+#include "evaluate/report.h"
+#include "fake_programs.h"
+#include "temporary_folder.h"
+
+namespace bounce {
+namespace {
+
+using test::Environment;
+using test::TemporaryFolder;
+
+class EvaluateTest : public testing::Test {
+  protected:
+    EvaluateTest()
+        : cache_("XDG_CACHE_HOME", (folder_ / "cache").string()),
+          addon_("BOUNCE_ADDON", (folder_ / "addon").string()) {
+        std::filesystem::create_directories(folder_ / "addon");
+        std::ofstream(folder_ / "addon/export_cli.py") << "#\n";
+        std::ofstream(folder_ / "scene.glb") << "the scene";
+        test::write_constant(folder_ / "picture.exr", 0.6F, 8, 4);
+        test::write_constant(folder_ / "cycles.exr", 0.5F, 8, 4);
+        options_.scene = folder_ / "scene.glb";
+        options_.frames = {1, 24};
+        options_.width = 8;
+        options_.height = 4;
+        options_.reference_spp = 32;
+        options_.cycles_spp = {1, 4};
+        options_.bounce = test::fake_bounce(folder_.path());
+        options_.source.blender = test::fake_blender(folder_.path());
+        options_.runs = {
+            {"Direct", "direct", {"--technique", "direct"}}, {"RSM", "112", {}}, {"RSM", "224", {}}};
+    }
+
+    [[nodiscard]] long calls(const std::string& name) const {
+        std::ifstream in(folder_ / name);
+        return std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
+    }
+
+    TemporaryFolder folder_;
+    Environment cache_;
+    Environment addon_;
+    EvaluateOptions options_;
+};
+
+TEST_F(EvaluateTest, MeasuresEveryRunAgainstTheReference) {
+    const Evaluation result = evaluate(options_);
+    ASSERT_EQ(result.curves.size(), 3U);
+    EXPECT_EQ(result.curves[0].name, "Cycles");
+    EXPECT_TRUE(result.curves[0].reference_engine);
+    ASSERT_EQ(result.curves[0].points.size(), 2U);
+    EXPECT_DOUBLE_EQ(result.curves[0].points[1].seconds, 8.0);
+    EXPECT_EQ(result.curves[2].points.size(), 2U) << "runs of one name are one curve";
+    const CurvePoint& direct = result.curves[1].points[0];
+    // 0.6 as half against 0.5: 0.1^2 / (0.5^2 + 0.01).
+    EXPECT_NEAR(direct.relmse, 0.01 / 0.26, 1e-4);
+    EXPECT_NEAR(direct.bias, 0.2, 1e-3);
+    EXPECT_DOUBLE_EQ(direct.seconds, 0.020);
+    ASSERT_EQ(direct.frames.size(), 2U);
+    EXPECT_EQ(direct.frames[1].frame, 24);
+    EXPECT_EQ(result.cycles.version, "9.9.9");
+    EXPECT_EQ(result.references[0].seconds, 64.0);
+    EXPECT_EQ(result.references[0].noise_floor, 0.0);
+    EXPECT_DOUBLE_EQ(result.cycles.first_render_seconds, 3.0);
+}
+
+TEST_F(EvaluateTest, RendersAReferenceOnce) {
+    EXPECT_FALSE(evaluate(options_).references[0].cached);
+    const Evaluation again = evaluate(options_);
+    EXPECT_TRUE(again.references[0].cached);
+    EXPECT_EQ(again.references[0].seconds, 64.0) << "its time is remembered";
+    std::ifstream in(folder_ / "blender_calls");
+    std::string first;
+    std::string second;
+    std::getline(in, first);
+    std::getline(in, second);
+    EXPECT_NE(first.find("\"spp\": 16"), std::string::npos);
+    EXPECT_EQ(second.find("\"spp\": 16"), std::string::npos);
+
+    std::ofstream(folder_ / "scene.glb") << "another scene";
+    EXPECT_FALSE(evaluate(options_).references[0].cached);
+}
+
+TEST_F(EvaluateTest, BouncesFailureComesBeforeCyclesStarts) {
+    options_.bounce = test::write_script(folder_ / "broken", "#!/bin/sh\necho 'error: no OpenGL'\nexit 4\n");
+    try {
+        (void)evaluate(options_);
+        FAIL() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::no_opengl);
+    }
+    EXPECT_EQ(calls("blender_calls"), 0);
+}
+
+TEST_F(EvaluateTest, CyclesFailureIsASentence) {
+    options_.source.blender = test::write_script(
+        folder_ / "failing",
+        "#!/bin/sh\n[ \"$1\" = --version ] && { echo Blender 9.9.9; exit 0; }\n"
+        "echo 'BOUNCE {\"event\": \"error\", \"message\": \"the scene has no active camera\"}'\nexit 1\n");
+    try {
+        (void)evaluate(options_);
+        FAIL() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::input_refused);
+        EXPECT_NE(std::string(error.what()).find("scene.glb: the scene has no active camera"),
+                  std::string::npos);
+    }
+}
+
+TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
+    options_.source.blender = test::write_script(folder_ / "other", "#!/bin/sh\necho hello\n");
+    EXPECT_THROW((void)evaluate(options_), Error);
+}
+
+TEST_F(EvaluateTest, WritesAWholeReport) {
+    write_report(evaluate(options_), folder_ / "report");
+    for (const char* name : {"results.json", "results.csv", "index.html", "frames/reference.0024.exr",
+                             "frames/rsm_112.0001.exr"}) {
+        EXPECT_TRUE(std::filesystem::is_regular_file((folder_ / "report") / name)) << name;
+    }
+}
+
+}  // namespace
+}  // namespace bounce

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/process.h"
+#include "temporary_folder.h"
+
+namespace bounce {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::Not;
+
+Image constant(float value) {
+    Image image(8, 4);
+    std::fill(image.rgb.begin(), image.rgb.end(), value);
+    return image;
+}
+
+CurvePoint point(const std::string& label, double seconds, double relmse) {
+    return make_point(label, {{1, seconds, relmse, 2 * relmse, 0.1, 0.9, 30.0, -0.01, 0}});
+}
+
+Evaluation example() {
+    Evaluation evaluation;
+    evaluation.scene = "box </script> & co.blend";  // a name that would break out of a careless page
+    evaluation.command = "bounce evaluate 'box </script> & co.blend' -o report";
+    evaluation.date = "2024-01-02T03:04:05Z";
+    evaluation.width = 8;
+    evaluation.height = 4;
+    evaluation.reference_spp = 1024;
+    evaluation.frames = {1};
+    evaluation.machine = {"A processor", 2, "A system"};
+    evaluation.gl_renderer = "A driver";
+    evaluation.blender = "Blender 3.4.1";
+    evaluation.cycles.version = "3.4.1";
+    evaluation.references = {{1, constant(0.5F), 1e-5, 124.0, false}};
+    evaluation.curves = {{"Cycles", true, {point("1 spp", 0.2, 0.3), point("64 spp", 8.0, 0.003)}},
+                         {"RSM", false, {point("112", 0.1, 0.01), point("1024", 0.4, 0.002)}}};
+    mark_pareto(evaluation.curves);
+    evaluation.speedups = speedups_at_equal_error(evaluation.curves);
+    for (const char* label : {"112", "1024"}) {
+        evaluation.pictures.push_back({"RSM", label, 1, constant(0.4F)});
+    }
+    for (const char* label : {"1 spp", "64 spp"}) {
+        evaluation.pictures.push_back({"Cycles", label, 1, constant(0.55F)});
+    }
+    return evaluation;
+}
+
+TEST(ResultsJson, KeepsTheContract) {
+    const auto json = nlohmann::json::parse(results_json(example()).dump());
+    EXPECT_TRUE(json.at("scene").is_string());
+    const auto& reference = json.at("reference");
+    for (const char* name : {"spp", "seconds", "noise_floor_relmse"}) {
+        EXPECT_TRUE(reference.at(name).is_number()) << name;
+    }
+    EXPECT_EQ(reference.at("version"), "3.4.1");
+    EXPECT_TRUE(reference.at("engine").is_string());
+    ASSERT_EQ(json.at("curves").size(), 2U);
+    for (const auto& curve : json["curves"]) {
+        EXPECT_TRUE(curve.at("name").is_string());
+        for (const auto& item : curve.at("points")) {
+            EXPECT_TRUE(item.at("label").is_string());
+            for (const char* name : {"seconds", "relmse", "flip_ldr", "bias"}) {
+                EXPECT_TRUE(item.at(name).is_number()) << name;
+            }
+        }
+    }
+    ASSERT_EQ(json.at("speedup_at_equal_error").size(), 2U);
+    for (const auto& item : json["speedup_at_equal_error"]) {
+        EXPECT_EQ(item.at("curve"), "RSM");
+        for (const char* name : {"relmse", "bounce_seconds", "cycles_seconds", "ratio"}) {
+            EXPECT_TRUE(item.at(name).is_number()) << name;
+        }
+        EXPECT_NEAR(item["ratio"].get<double>(),
+                    item["cycles_seconds"].get<double>() / item["bounce_seconds"].get<double>(), 1e-9);
+    }
+}
+
+TEST(ResultsJson, NotANumberBecomesNull) {
+    Evaluation evaluation = example();
+    evaluation.curves[1].points[0].relmse = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(results_json(evaluation)["curves"][1]["points"][0]["relmse"].is_null());
+}
+
+TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
+    const std::string csv = results_csv(example());
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
+    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,,0.1,,,-0.01,true\n"));
+    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,\n"));
+    // Every row has as many columns as the head.
+    const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+    size_t start = 0;
+    while (start < csv.size()) {
+        const size_t end = csv.find('\n', start);
+        EXPECT_EQ(columns(csv.substr(start, end - start)), 10) << csv.substr(start, end - start);
+        start = end + 1;
+    }
+}
+
+TEST(ResultsTable, ShowsTimeToEqualError) {
+    const std::string table = results_table(example());
+    EXPECT_THAT(table, HasSubstr("relMSE"));
+    EXPECT_THAT(table, HasSubstr("noise floor 1e-05"));
+    EXPECT_THAT(table, HasSubstr("(extrapolated)")) << "0.002 lies beyond Cycles' 64 spp";
+}
+
+TEST(ShownPoints, AreTheMostExactAndTheNearestInTime) {
+    const auto shown = shown_points(example());
+    ASSERT_EQ(shown.size(), 2U);
+    EXPECT_EQ(shown[0], (std::pair<std::string, std::string>("RSM", "1024")));
+    EXPECT_EQ(shown[1],
+              (std::pair<std::string, std::string>("Cycles", "1 spp")));  // 0.2 s is nearest to 0.4 s
+}
+
+TEST(ResultsHtml, IsSelfContainedAndHoldsTheData) {
+    const std::string page = results_html(example());
+    EXPECT_THAT(page, HasSubstr("\"ratio\""));
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBOR"));
+    EXPECT_THAT(page, HasSubstr("Chart.js v3"));
+    EXPECT_THAT(page, HasSubstr("Permission is hereby granted"));
+    EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+    EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
+    EXPECT_THAT(page, Not(HasSubstr("/*RESULTS*/")));
+    EXPECT_THAT(page, Not(HasSubstr("box </script>")));
+}
+
+// The page as a browser builds it: its text comes from its script.
+TEST(ResultsHtml, OpensInABrowser) {
+    const auto chromium = find_program("chromium");
+    if (!chromium) {
+        GTEST_SKIP() << "chromium is not installed here";
+    }
+    const TemporaryFolder folder;
+    std::ofstream(folder / "index.html") << results_html(example());
+    const ProcessResult result = run_process(
+        {chromium->string(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic",
+         "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+         "--user-data-dir=" + (folder / "profile").string(), "--virtual-time-budget=5000", "--dump-dom",
+         "file://" + (folder / "index.html").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, Not(HasSubstr("Uncaught")));
+    EXPECT_THAT(result.output, HasSubstr("<td>64 spp</td>"));
+    EXPECT_THAT(result.output, HasSubstr("A processor, 2 threads, A system"));
+    EXPECT_THAT(result.output, HasSubstr("<h1 id=\"title\">box &lt;/script&gt; &amp; co.blend"));
+    EXPECT_THAT(result.output, HasSubstr("aria-pressed=\"true\">Frame 1</button>"));
+}
+
+}  // namespace
+}  // namespace bounce
