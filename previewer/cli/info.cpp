@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/scene_source.h"
 #include "scene/gltf_loader.h"
 #include "scene/pose.h"
 #include "scene/scene_features.h"
@@ -22,6 +24,7 @@ using scene::k_none;
 
 struct InfoArguments {
     std::filesystem::path scene;
+    SceneSourceOptions source;
     bool json = false;
 };
 
@@ -30,6 +33,8 @@ struct Summary {
     const scene::LoadResult& loaded;
     scene::SceneFeatures features;
     scene::Bounds bounds;  // at the first frame
+    std::uintmax_t bytes = 0;  // of the file; buffers and images beside it are not in it
+    double load_ms = 0.0;      // reading, decompressing and checking it
 };
 
 const char* type_name(scene::LightType type) {
@@ -153,6 +158,7 @@ json summary_json(const Summary& summary) {
         {"extensions", summary.loaded.extensions_used},
         {"warnings", summary.loaded.warnings},
         {"unsupported", json::array()}};
+    result["file"] = {{"bytes", summary.bytes}, {"load_ms", summary.load_ms}};
     result["bounds"] = nullptr;
     if (!summary.bounds.empty()) {
         result["bounds"] = {{"low", vector_json(summary.bounds.low)},
@@ -198,6 +204,8 @@ void print_summary(const Summary& summary) {
     fmt::print(
         "{}{}\n", scene.name,
         scene.from_blender ? fmt::format(", from Blender {}", version_text(scene.blender_version)) : "");
+    fmt::print("file        {:.1f} KiB, loaded in {:.0f} ms\n", static_cast<double>(summary.bytes) / 1024.0,
+               summary.load_ms);
     fmt::print("geometry    {} triangles, {} vertices in {} draws of {} meshes\n", features.triangles,
                features.vertices, features.draws, scene.meshes.size());
     if (!summary.bounds.empty()) {
@@ -228,12 +236,14 @@ void print_summary(const Summary& summary) {
 }
 
 ExitCode run_info(const InfoArguments& arguments) {
-    // Where a .blend is given it is to be exported first; here is the place.
-    const scene::LoadResult loaded = scene::load_gltf(arguments.scene);
+    const std::filesystem::path file = resolve_scene(arguments.scene, arguments.source).gltf;
+    const auto start = std::chrono::steady_clock::now();
+    const scene::LoadResult loaded = scene::load_gltf(file);
+    const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const int animation = scene::default_animation(loaded.scene);
     const scene::Pose pose = scene::evaluate_pose(loaded.scene, 0.0, animation);
     const Summary summary{loaded, scene::scene_features(loaded.scene, animation),
-                          scene::world_bounds(loaded.scene, pose)};
+                          scene::world_bounds(loaded.scene, pose), std::filesystem::file_size(file), load_ms};
     if (arguments.json) {
         fmt::print("{}\n", summary_json(summary).dump(2, ' ', false, json::error_handler_t::replace));
     } else {
@@ -247,7 +257,8 @@ ExitCode run_info(const InfoArguments& arguments) {
 void add_info(CLI::App& app, Run& run) {
     auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Say what is in a scene");
-    command->add_option("SCENE", arguments->scene, "The scene: .glb or .gltf")->required();
+    command->add_option("SCENE", arguments->scene, "The scene: .glb, .gltf or .blend")->required();
+    add_scene_source_options(*command, arguments->source);
     command->add_flag("--json", arguments->json, "Print JSON (schema bounce.info/1)");
     command->callback([&run, arguments] { run = [arguments] { return run_info(*arguments); }; });
 }

@@ -8,13 +8,13 @@
 #include "cli/frame_list.h"
 #include "cli/frame_writer.h"
 #include "cli/render_options.h"
+#include "cli/scene_source.h"
 #include "cli/stats.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/progress.h"
 #include "gl/context.h"
 #include "renderer/renderer.h"
-#include "scene/gltf_loader.h"
 #include "scene/pose.h"
 
 namespace bounce::cli {
@@ -27,6 +27,7 @@ struct Arguments {
     std::string stats;
     int repeat = 1;
     bool pass_times = true;
+    SceneSourceOptions source;
     RenderOptions render;
 };
 
@@ -77,7 +78,7 @@ FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const Came
 }
 
 ExitCode render(const Arguments& arguments) {
-    const scene::LoadResult loaded = scene::load_gltf(arguments.scene);
+    const scene::LoadResult loaded = load_scene(arguments.scene, arguments.source);
     for (const std::string& warning : loaded.warnings) {
         log::warning("{}", warning);
     }
@@ -141,6 +142,7 @@ void add_render(CLI::App& app, Run& run) {
     command->add_option("--repeat", arguments->repeat, "Render each frame N times after a warm-up; stats hold the median")
         ->check(CLI::Range(1, 10000));
     command->add_flag("!--no-pass-times", arguments->pass_times, "With --stats: do not time the passes one by one");
+    add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     command->callback([arguments, &run] { run = [arguments] { return render(*arguments); }; });
 }

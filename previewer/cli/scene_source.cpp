@@ -8,4 +8,10 @@ void add_scene_source_options(CLI::App& command, SceneSourceOptions& options) {
                        "Blender to export a .blend with (otherwise $BLENDER, then blender on PATH)");
 }
 
+scene::LoadResult load_scene(const std::filesystem::path& scene, const SceneSourceOptions& options) {
+    scene::LoadResult result = scene::load_gltf(resolve_scene(scene, options).gltf);
+    result.scene.name = scene.filename().string();  // not the exported file's in the cache
+    return result;
+}
+
 }  // namespace bounce::cli
