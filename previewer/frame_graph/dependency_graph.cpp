@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <string_view>
 #include <utility>
 
 namespace bounce {
@@ -11,6 +12,18 @@ namespace {
 
 size_t at(int index) {
     return static_cast<size_t>(index);
+}
+
+// A name between quotes in Graphviz text; passes carry the names of lights, which may hold anything.
+std::string quoted(std::string_view name) {
+    std::string out;
+    for (const char c : name) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+        }
+        out += c;
+    }
+    return out;
 }
 
 }  // namespace
@@ -85,10 +98,10 @@ std::string DependencyGraph::to_dot() const {
     std::string out = "digraph frame {\n  rankdir=LR;\n";
     for (size_t i = 0; i < passes_.size(); ++i) {
         out += fmt::format("  p{} [shape=box, style=\"{}\", label=\"{}\"];\n", i,
-                           live[i] ? "filled" : "dashed", passes_[i].name);
+                           live[i] ? "filled" : "dashed", quoted(passes_[i].name));
     }
     for (size_t i = 0; i < resources_.size(); ++i) {
-        out += fmt::format("  r{} [shape=ellipse, label=\"{}\"];\n", i, resources_[i].name);
+        out += fmt::format("  r{} [shape=ellipse, label=\"{}\"];\n", i, quoted(resources_[i].name));
     }
     for (size_t i = 0; i < passes_.size(); ++i) {
         for (const int resource : passes_[i].reads) {

@@ -22,6 +22,7 @@ size_t at(int index) {
 int FrameGraph::add_version(int resource) {
     const int version = dependencies_.add_resource(resources_[at(resource)].name);
     resource_of_version_.push_back(resource);
+    resources_[at(resource)].latest_version = version;
     return version;
 }
 
@@ -30,6 +31,11 @@ int FrameGraph::declare(int pass, int version) {
         throw std::logic_error(fmt::format("pass {} declares a resource that was never made", passes_[at(pass)].name));
     }
     const int resource = resource_of_version_[at(version)];
+    // Passes run in the order they were added, so what an older handle stands for is gone by now.
+    if (version != resources_[at(resource)].latest_version) {
+        throw std::logic_error(fmt::format("pass {} declares {} as it was before another pass changed it",
+                                           passes_[at(pass)].name, resources_[at(resource)].name));
+    }
     passes_[at(pass)].resources.push_back(resource);
     return resource;
 }
@@ -127,7 +133,45 @@ void FrameGraph::release(Resource& resource) {
     }
 }
 
+namespace {
+
+// Ends a pass's time, and the driver's query, also where the pass throws.
+class TimedPass {
+  public:
+    TimedPass(gl::PassTimer& timer, const std::string& name) : timer_(timer) { timer_.begin(name); }
+    ~TimedPass() { timer_.end(); }
+    TimedPass(const TimedPass&) = delete;
+    TimedPass& operator=(const TimedPass&) = delete;
+    TimedPass(TimedPass&&) = delete;
+    TimedPass& operator=(TimedPass&&) = delete;
+
+  private:
+    gl::PassTimer& timer_;
+};
+
+}  // namespace
+
+// Gives everything back to the pool, also where a pass throws: the pool keeps framebuffers over these
+// textures, and the names of deleted ones would come back as other textures.
+class FrameGraph::ReleaseAtEnd {
+  public:
+    explicit ReleaseAtEnd(FrameGraph& graph) : graph_(graph) {}
+    ~ReleaseAtEnd() {
+        for (Resource& resource : graph_.resources_) {
+            graph_.release(resource);
+        }
+    }
+    ReleaseAtEnd(const ReleaseAtEnd&) = delete;
+    ReleaseAtEnd& operator=(const ReleaseAtEnd&) = delete;
+    ReleaseAtEnd(ReleaseAtEnd&&) = delete;
+    ReleaseAtEnd& operator=(ReleaseAtEnd&&) = delete;
+
+  private:
+    FrameGraph& graph_;
+};
+
 void FrameGraph::execute(gl::PassTimer& timer) {
+    const ReleaseAtEnd release_at_end(*this);
     const std::vector<bool> live = dependencies_.live_passes();
     find_lifetimes(live);
     for (size_t pass = 0; pass < passes_.size(); ++pass) {
@@ -143,9 +187,8 @@ void FrameGraph::execute(gl::PassTimer& timer) {
         }
         {
             const gl::DebugGroup group(name);
-            timer.begin(name);
+            const TimedPass timed(timer, name);
             passes_[pass].execute(PassResources(*this, static_cast<int>(pass)));
-            timer.end();
         }
         gl::throw_on_debug_error(name);
         executed_.push_back(name);

@@ -91,6 +91,7 @@ class FrameGraph {
   private:
     friend class PassBuilder;
     friend class PassResources;
+    class ReleaseAtEnd;
 
     struct Resource {
         std::string name;
@@ -100,6 +101,7 @@ class FrameGraph {
         const gl::Texture* imported = nullptr;
         gl::Texture texture;
         gl::Buffer buffer;
+        int latest_version = -1;
         int first_use = -1;
         int last_use = -1;
     };
