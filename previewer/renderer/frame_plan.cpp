@@ -57,7 +57,7 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& p
         if (light.type == scene::LightType::area) {
             plan.approximations.push_back(
                 fmt::format("area light {}: its shadow and bounce are taken from its centre", light.name));
-        } else if (soft && plan.direct) {
+        } else if (soft && plan.shadows.back()) {
             plan.approximations.push_back(fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
         }
     }
@@ -68,11 +68,16 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& p
 
 void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePlan& plan) {
     bool blend = false;
+    bool emitters = false;
     bool reflects = false;
     for_each_material(scene, pose, [&](const scene::Material& material) {
-        plan.emission |= material.unlit || !is_dark(material.emission * material.emission_strength);
+        const bool shines = !material.unlit && !is_dark(material.emission * material.emission_strength);
+        emitters |= shines;
+        plan.emission |= shines || material.unlit;  // an unlit surface shows its colour as if it emitted it
         blend |= material.alpha_mode == scene::AlphaMode::blend;
-        reflects |= !is_dark(glm::vec3(material.base_color) * (1.0F - material.metallic)) && !material.unlit;
+        // Where a texture says what is metal, the factor 1 is only glTF's default.
+        const float metallic = material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
+        reflects |= !is_dark(glm::vec3(material.base_color) * (1.0F - metallic)) && !material.unlit;
     });
     // A primitive without a material is white metal in glTF: no diffuse bounce either.
     if (plan.indirect && !reflects) {
@@ -82,9 +87,10 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePla
     if (blend) {
         plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
     }
-    if (plan.emission) {
+    if (emitters) {
         plan.approximations.emplace_back("emissive surfaces are seen but light nothing");
-    } else {
+    }
+    if (!plan.emission) {
         plan.left_out.push_back({"emission", "no visible surface emits"});
     }
 }

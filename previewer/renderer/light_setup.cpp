@@ -86,10 +86,12 @@ void add_sun_face(Frame& frame, const scene::Bounds& bounds, const gpu::RenderSp
     const glm::dmat4 rotate = light_from_render(frame);
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(-std::numeric_limits<double>::max());
+    // A scene that shows nothing is a point.
+    const glm::dvec3 from = bounds.empty() ? space.origin : bounds.low;
+    const glm::dvec3 to = bounds.empty() ? space.origin : bounds.high;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 world((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                               (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                               (corner & 4) != 0 ? bounds.high.z : bounds.low.z);
+        const glm::dvec3 world((corner & 1) != 0 ? to.x : from.x, (corner & 2) != 0 ? to.y : from.y,
+                               (corner & 4) != 0 ? to.z : from.z);
         const glm::dvec3 p(rotate * glm::dvec4(space.point(world), 1.0));
         low = glm::min(low, p);
         high = glm::max(high, p);

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a frame does and leaves out, and what it says about it. No OpenGL.
+#include "renderer/frame_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace bounce {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+// A square of diffuse white under one spot: a frame with everything that matters in it.
+class FramePlanTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        scene::Material white;
+        white.metallic = 0.0F;
+        scene_.materials = {white};
+        scene::Primitive square;
+        square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        square.normals.assign(4, {0, 0, 1});
+        square.indices = {0, 1, 2, 0, 2, 3};
+        square.material = 0;
+        scene_.meshes = {{"square", {square}, {}}};
+        scene::Node mesh;
+        mesh.mesh = 0;
+        add_node(mesh);
+        add_light("Key", scene::LightType::spot);
+    }
+    void add_node(const scene::Node& node) {
+        scene_.topological_order.push_back(static_cast<int>(scene_.nodes.size()));
+        scene_.roots.push_back(static_cast<int>(scene_.nodes.size()));
+        scene_.nodes.push_back(node);
+    }
+    scene::Light& add_light(const std::string& name, scene::LightType type) {
+        scene::Light light;
+        light.name = name;
+        light.type = type;
+        light.power_w = 10.0F;
+        light.irradiance_w_m2 = 1.0F;
+        light.cone_angle_rad = 1.0F;
+        scene_.lights.push_back(light);
+        scene::Node node;
+        node.light = static_cast<int>(scene_.lights.size()) - 1;
+        add_node(node);
+        return scene_.lights.back();
+    }
+    [[nodiscard]] FramePlan plan() const { return plan_frame(scene_, scene::evaluate_pose(scene_, 0.0), settings_); }
+    // The reason for leaving a pass out, or nothing where it is not left out.
+    [[nodiscard]] static std::string reason(const FramePlan& plan, const std::string& pass) {
+        for (const LeftOut& item : plan.left_out) {
+            if (item.pass == pass) {
+                return item.reason;
+            }
+        }
+        return {};
+    }
+    scene::Scene scene_;
+    Settings settings_;
+};
+
+TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
+    const FramePlan p = plan();
+    EXPECT_TRUE(p.direct);
+    EXPECT_TRUE(p.indirect);
+    EXPECT_TRUE(p.interpolate);
+    EXPECT_EQ(p.lights, std::vector<int>{0});
+    EXPECT_EQ(p.shadows, std::vector<bool>{true});
+    EXPECT_EQ(reason(p, "rsm"), "");
+    EXPECT_EQ(reason(p, "rsm interpolate"), "");
+    EXPECT_TRUE(p.approximations.empty());
+}
+
+TEST_F(FramePlanTest, DirectTechniqueLeavesTheBounceOutAsAskedFor) {
+    settings_.technique = Technique::direct;
+    const FramePlan p = plan();
+    EXPECT_TRUE(p.direct);
+    EXPECT_FALSE(p.indirect);
+    EXPECT_FALSE(p.interpolate);
+    EXPECT_THAT(reason(p, "rsm"), HasSubstr("asked for"));
+}
+
+TEST_F(FramePlanTest, ShowingOneKindOfLightLeavesTheOtherOut) {
+    settings_.show = Show::direct;
+    EXPECT_TRUE(plan().direct);
+    EXPECT_FALSE(plan().indirect);
+    settings_.show = Show::indirect;
+    EXPECT_FALSE(plan().direct);
+    EXPECT_TRUE(plan().indirect);
+    EXPECT_EQ(plan().shadows, std::vector<bool>{false}) << "no direct light, no shadow map";
+    settings_.show = Show::rsm_flux;
+    EXPECT_FALSE(plan().direct);
+    EXPECT_TRUE(plan().indirect);
+}
+
+TEST_F(FramePlanTest, DarkLightsAreLeftOutByName) {
+    add_light("Off", scene::LightType::point).power_w = 0.0F;
+    add_light("Night", scene::LightType::sun).irradiance_w_m2 = 0.0F;
+    add_light("Black", scene::LightType::area).color = glm::vec3(0.0F);
+    add_light("Negative", scene::LightType::point).power_w = -5.0F;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.lights, std::vector<int>{0});
+    for (const char* name : {"light: Off", "light: Night", "light: Black", "light: Negative"}) {
+        EXPECT_THAT(reason(p, name), HasSubstr("sends no light")) << name;
+    }
+}
+
+TEST_F(FramePlanTest, ASunShinesByIrradianceNotByPower) {
+    add_light("Sun", scene::LightType::sun).power_w = 0.0F;
+    EXPECT_EQ(plan().lights, (std::vector<int>{0, 1}));
+}
+
+TEST_F(FramePlanTest, WithoutLightThereIsNothingToBounce) {
+    scene_.lights[0].power_w = 0.0F;
+    const FramePlan p = plan();
+    EXPECT_FALSE(p.direct);
+    EXPECT_FALSE(p.indirect);
+    EXPECT_FALSE(p.interpolate);
+    EXPECT_THAT(reason(p, "rsm"), HasSubstr("no light"));
+}
+
+TEST_F(FramePlanTest, ALightThatCastsNoShadowHasNoMap) {
+    scene_.lights[0].cast_shadow = false;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.shadows, std::vector<bool>{false});
+    EXPECT_THAT(reason(p, "shadow map: Key"), HasSubstr("casts no shadow"));
+    settings_.show = Show::indirect;
+    EXPECT_EQ(reason(plan(), "shadow map: Key"), "") << "no direct light, so nothing was left out for the lamp's sake";
+}
+
+TEST_F(FramePlanTest, SurfacesThatReflectNothingDiffuselyBounceNothing) {
+    const auto refuses = [&](auto change) {
+        const scene::Material before = scene_.materials[0];
+        change(scene_.materials[0]);
+        const FramePlan p = plan();
+        EXPECT_FALSE(p.indirect);
+        EXPECT_TRUE(p.direct);
+        EXPECT_THAT(reason(p, "rsm"), HasSubstr("reflects diffusely"));
+        scene_.materials[0] = before;
+    };
+    refuses([](scene::Material& m) { m.base_color = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F); });
+    refuses([](scene::Material& m) { m.metallic = 1.0F; });
+    refuses([](scene::Material& m) { m.unlit = true; });
+    scene_.meshes[0].primitives[0].material = scene::k_none;  // glTF's default is white metal
+    EXPECT_FALSE(plan().indirect);
+}
+
+TEST_F(FramePlanTest, AMetallicTextureMayLeaveDiffuseParts) {
+    // glTF multiplies the factor 1 (its default) by the texture: most textured models have it.
+    scene_.materials[0].metallic = 1.0F;
+    scene_.materials[0].metallic_roughness_texture.texture = 0;
+    EXPECT_TRUE(plan().indirect) << "the texture decides, not the factor";
+}
+
+TEST_F(FramePlanTest, InterpolationIsOffWhereEveryPixelIsAskedFor) {
+    const auto is_off = [&](const Settings& settings) {
+        settings_ = settings;
+        const FramePlan p = plan();
+        EXPECT_TRUE(p.indirect);
+        EXPECT_FALSE(p.interpolate);
+        EXPECT_THAT(reason(p, "rsm interpolate"), HasSubstr("every pixel"));
+    };
+    is_off({.interpolate = false});
+    is_off({.lowres_step = 1});
+    is_off({.rsm_full_sum = true});
+}
+
+TEST_F(FramePlanTest, NothingDeformsWithoutSkinOrMorph) {
+    EXPECT_FALSE(plan().deform);
+    EXPECT_THAT(reason(plan(), "deform"), HasSubstr("skinned or morphs"));
+    scene::MorphTarget target;
+    target.positions.assign(4, glm::vec3(1.0F));
+    scene_.meshes[0].primitives[0].targets = {target};
+    EXPECT_TRUE(plan().deform);
+    EXPECT_EQ(reason(plan(), "deform"), "");
+}
+
+TEST_F(FramePlanTest, ASkinDeformsOnlyWhatHasJoints) {
+    scene::Skin skin;
+    skin.joints = {0};
+    skin.joint_from_mesh = {glm::mat4(1.0F)};
+    scene_.skins = {skin};
+    scene_.nodes[0].skin = 0;
+    EXPECT_FALSE(plan().deform) << "no vertex is bound to a joint";
+    scene_.meshes[0].primitives[0].joints.assign(4, glm::u16vec4(0));
+    scene_.meshes[0].primitives[0].weights.assign(4, glm::vec4(1, 0, 0, 0));
+    EXPECT_TRUE(plan().deform);
+    scene_.nodes[0].visible = false;
+    EXPECT_FALSE(plan().deform) << "hidden";
+}
+
+TEST_F(FramePlanTest, EmissionIsDrawnWhereASurfaceShines) {
+    EXPECT_FALSE(plan().emission);
+    EXPECT_THAT(reason(plan(), "emission"), HasSubstr("no visible surface emits"));
+    scene_.materials[0].emission = glm::vec3(0.0F, 2.0F, 0.0F);
+    EXPECT_TRUE(plan().emission);
+    EXPECT_EQ(reason(plan(), "emission"), "");
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("emissive surfaces")));
+    scene_.materials[0].emission_strength = 0.0F;
+    EXPECT_FALSE(plan().emission);
+    scene_.materials[0].unlit = true;
+    EXPECT_TRUE(plan().emission) << "unlit surfaces show their colour as emission";
+}
+
+TEST_F(FramePlanTest, AnUnlitSurfaceIsNotSaidToLackLight) {
+    // By its definition an unlit surface lights nothing (KHR_materials_unlit), so that is no approximation.
+    scene_.materials[0].unlit = true;
+    EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("emissive surfaces"))));
+}
+
+TEST_F(FramePlanTest, TheWorldLightsTheShadedPictureAlone) {
+    EXPECT_FALSE(plan().world_light);
+    EXPECT_THAT(reason(plan(), "world light"), HasSubstr("black"));
+    scene_.world.color = glm::vec3(0.5F);
+    EXPECT_TRUE(plan().world_light);
+    EXPECT_EQ(reason(plan(), "world light"), "");
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("world's light")));
+    settings_.show = Show::indirect;
+    EXPECT_FALSE(plan().world_light);
+    EXPECT_EQ(reason(plan(), "world light"), "") << "not shown is not the same as black";
+}
+
+TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {
+    scene_.lights[0].radius_m = 0.1F;
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("light Key: drawn with a hard shadow")));
+    settings_.show = Show::indirect;
+    EXPECT_TRUE(plan().approximations.empty()) << "no shadow is drawn";
+    settings_.show = Show::shaded;
+    scene_.lights[0].radius_m = 0.0F;
+    add_light("Panel", scene::LightType::area);
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("area light Panel")));
+    scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("blended transparency")));
+}
+
+TEST_F(FramePlanTest, ASoftLightWithoutShadowIsExact) {
+    scene_.lights[0].radius_m = 0.1F;
+    scene_.lights[0].cast_shadow = false;
+    EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("hard shadow"))));
+}
+
+}  // namespace
+}  // namespace bounce
