@@ -91,14 +91,17 @@ HeadlessContext::~HeadlessContext() {
     }
 }
 
+bool is_software_driver() {
+    const std::string renderer = gl_string(GL_RENDERER);
+    return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+}
+
 DeviceInfo initialise_current_context() {
     const int version = epoxy_gl_version();
     if (!epoxy_is_desktop_gl() || version < 45) {
         throw no_opengl(fmt::format("this driver has {}.{}", version / 10, version % 10));
     }
-    DeviceInfo device{gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION), false};
-    device.software = device.renderer.find("llvmpipe") != std::string::npos ||
-                      device.renderer.find("softpipe") != std::string::npos;
+    DeviceInfo device{gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION), is_software_driver()};
     install_debug_output();
     // Depth 0..1 with 1 at the near plane keeps float precision far away.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

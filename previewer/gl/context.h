@@ -32,6 +32,9 @@ class HeadlessContext {
     std::unique_ptr<Impl> impl_;
 };
 
+// Whether the current context is one of Mesa's software drivers (DeviceInfo::software).
+[[nodiscard]] bool is_software_driver();
+
 // What a context must have, whoever made it (EGL here, GLFW in the viewer): OpenGL 4.5 core. Sets the
 // conventions that all passes rely on (clip depth 0..1, debug output, seamless cube maps off) and returns
 // the device. Throws Error(no_opengl).

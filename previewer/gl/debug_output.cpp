@@ -15,8 +15,12 @@ namespace {
 // Output is synchronous, so the callback runs on the thread that made the call.
 thread_local std::string g_first_error;
 
-void GLAPIENTRY on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
+void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
                            const GLchar* text, const void* /*user*/) {
+    // What a compiler says is in its log, which Program throws; left here it would be blamed on the next pass.
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) {
+        return;
+    }
     const std::string_view message(text, static_cast<size_t>(length));
     if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) {
         if (g_first_error.empty()) {
