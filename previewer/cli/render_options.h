@@ -20,7 +20,7 @@ struct RenderOptions {
     std::string pattern = "uniform-radius";
     std::string show = "shaded";
     bool interpolate = true;
-    int lowres = 8;
+    int lowres = 4;
     int rsm_size = 512;
     int shadow_size = 2048;
     int light = 0;

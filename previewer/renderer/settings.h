@@ -34,7 +34,7 @@ struct Settings {
 
     // Screen-space interpolation (section 4 of the paper).
     bool interpolate = true;
-    int lowres_step = 8;  // one sample in step x step pixels
+    int lowres_step = 4;  // one sample in step x step pixels
     // A low-resolution sample is suitable where its normal differs by less than this angle, ...
     float interpolation_angle_deg = 15.0F;
     // ... it lies within this part of a low-resolution cell's width of the pixel's tangent plane, ...
