@@ -29,7 +29,9 @@ CurvePoint make_point(std::string label, std::vector<FrameError> frames) {
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points) {
     std::vector<bool> front;
     front.reserve(points.size());
-    for (const auto& [seconds, error] : points) {
+    for (const auto& point : points) {
+        const double seconds = point.first;
+        const double error = point.second;
         const bool finite = std::isfinite(seconds) && std::isfinite(error);
         front.push_back(finite && std::none_of(points.begin(), points.end(), [&](const auto& other) {
                             return other.first <= seconds && other.second <= error &&

@@ -18,13 +18,13 @@ std::optional<fs::path> config_in(const fs::path& folder) {
 
 // In folder itself or in one of its folders named like a version ("3.4").
 std::optional<fs::path> config_in_or_below(const fs::path& folder) {
-    if (const auto config = config_in(folder)) {
+    if (auto config = config_in(folder)) {
         return config;
     }
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         if (entry.path().filename().string().find('.') != std::string::npos) {
-            if (const auto config = config_in(entry.path())) {
+            if (auto config = config_in(entry.path())) {
                 return config;
             }
         }

@@ -34,9 +34,10 @@ Plane filter_columns(const Plane& plane, const Kernel& kernel) {
     const auto width = static_cast<size_t>(plane.width);
     for (int y = 0; y < plane.height; ++y) {
         float* out = &result.values[static_cast<size_t>(y) * width];
-        for (int i = -radius; i <= radius; ++i) {
-            const float weight = kernel[static_cast<size_t>(i + radius)];
-            const auto from = static_cast<size_t>(std::clamp(y + i, 0, plane.height - 1));
+        for (size_t i = 0; i < kernel.size(); ++i) {
+            const float weight = kernel[i];
+            const auto from =
+                static_cast<size_t>(std::clamp(y + static_cast<int>(i) - radius, 0, plane.height - 1));
             const float* in = &plane.values[from * width];
             for (size_t x = 0; x < width; ++x) {
                 out[x] += weight * in[x];

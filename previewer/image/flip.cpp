@@ -274,6 +274,7 @@ Plane flip_hdr(const Image& test_linear, const Image& reference_linear, float pi
     };
     const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, exposures.count);
     std::vector<std::future<Plane>> parts;
+    parts.reserve(static_cast<size_t>(workers));
     for (int i = 0; i < workers; ++i) {
         parts.push_back(std::async(std::launch::async, worker, i, workers));
     }
