@@ -15,6 +15,7 @@ constexpr double k_int = 2147483647.0;                  // tinygltf keeps these 
 constexpr double k_frame = 1048574.0;                   // Blender's own bound
 constexpr double k_accessor_elements = static_cast<double>(k_max_accessor_elements);
 
+// Factors that glTF bounds to 0 .. 1 are clamped where they are read: rounding takes them past it.
 constexpr Rule k_rules[] = {
     // Every list of objects, their names and extensions.
     {"scenes", Kind::list},
@@ -161,8 +162,8 @@ constexpr Rule k_rules[] = {
     {"materials/*/pbrMetallicRoughness/baseColorTexture", Kind::object},
     {"materials/*/pbrMetallicRoughness/metallicRoughnessTexture", Kind::object},
     {"materials/*/pbrMetallicRoughness/baseColorFactor", Kind::numbers, 4},
-    {"materials/*/pbrMetallicRoughness/metallicFactor", Kind::number, 0, 1},
-    {"materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number, 0, 1},
+    {"materials/*/pbrMetallicRoughness/metallicFactor", Kind::number, -k_any, k_any},
+    {"materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number, -k_any, k_any},
     {"materials/*/emissiveFactor", Kind::numbers, 3},
     {"materials/*/alphaMode", Kind::string},
     {"materials/*/alphaCutoff", Kind::number, 0, k_any},
@@ -221,9 +222,10 @@ constexpr Rule k_rules[] = {
     {"materials/*/pbrMetallicRoughness/metallicRoughnessTexture/extensions/KHR_texture_transform/texCoord",
      Kind::integer, 0, 65535},
     {"materials/*/normalTexture/scale", Kind::number, -k_any, k_any},
-    {"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number, 0, k_any},
-    {"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number, 0, 1},
+    {"materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number, -k_any, k_any},
+    {"materials/*/extensions/KHR_materials_specular/specularFactor", Kind::number, -k_any, k_any},
     {"materials/*/extensions/KHR_materials_specular/specularColorFactor", Kind::numbers, 3},
+    {"materials/*/extensions/KHR_materials_ior/ior", Kind::number, 0, k_any},
     {"materials/*/extensions/BOUNCE_scene/diffuse", Kind::string},
     {"materials/*/extensions/BOUNCE_scene/specular", Kind::number, 0, k_any},
     // Cameras. A field of view of 0 or 180 degrees has no image.
@@ -288,7 +290,7 @@ constexpr Rule k_rules[] = {
     {"extensions/KHR_lights_punctual/lights/*/type", Kind::string},
     {"extensions/KHR_lights_punctual/lights/*/name", Kind::string},
     {"extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, 3},
-    {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number, 0, k_any},
+    {"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number, -k_any, k_any},
     {"extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
     {"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number, 0, 1.5708},
     {"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number, 0, 1.5708},

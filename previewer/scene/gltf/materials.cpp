@@ -23,31 +23,49 @@ AlphaMode alpha_mode_of(Source& source, const std::string& name) {
     return AlphaMode::opaque;
 }
 
-// KHR_materials_specular, of which the factor alone can be carried.
-float specular_of(Source& source, const json& description) {
-    const json* specular = extension(description, "KHR_materials_specular");
-    if (specular == nullptr) {
-        return k_default_specular;
+// Normal reflectance of a dielectric in air. An index of 0 stands for infinity (KHR_materials_ior).
+float reflectance_of_ior(float ior) {
+    if (ior < 1.0F) {
+        return 1.0F;
     }
-    if (specular->contains("specularTexture") || specular->contains("specularColorTexture")) {
+    const float ratio = (ior - 1.0F) / (ior + 1.0F);
+    return ratio * ratio;
+}
+
+// KHR_materials_ior and KHR_materials_specular, of which the factor alone can be carried, as
+// Principled's "Specular".
+float specular_of(Source& source, const json& description) {
+    constexpr float reflectance_at_one = 0.08F;  // Principled: F0 = 0.08 * specular
+    float specular = k_default_specular;
+    if (const json* ior = extension(description, "KHR_materials_ior")) {
+        specular = reflectance_of_ior(number_or(*ior, "ior", 1.5F)) / reflectance_at_one;
+    }
+    const json* lobe = extension(description, "KHR_materials_specular");
+    if (lobe == nullptr) {
+        return specular;
+    }
+    if (lobe->contains("specularTexture") || lobe->contains("specularColorTexture")) {
         source.warn("textures of KHR_materials_specular are not supported; their factor is used");
     }
-    const json& tint = list(*specular, "specularColorFactor");
+    const json& tint = list(*lobe, "specularColorFactor");
     if (std::any_of(tint.begin(), tint.end(), [](const json& x) { return x.get<float>() != 1.0F; })) {
         source.warn(
             "the colour of KHR_materials_specular is not supported; reflections are shown uncoloured");
     }
-    return k_default_specular * number_or(*specular, "specularFactor", 1.0F);
+    return specular * std::clamp(number_or(*lobe, "specularFactor", 1.0F), 0.0F, 1.0F);
 }
 
-void read_blender_description(const json& description, Material& material) {
-    const json* ours = extension(description, "BOUNCE_scene");
-    if (ours == nullptr) {
-        return;
+// What Blender meant, where the file says so; the extensions above are then only its translation.
+void read_reflection(Source& source, const json& description, Material& material) {
+    const json* blender = extension(description, "BOUNCE_scene");
+    if (blender == nullptr || !blender->contains("specular")) {
+        material.specular = specular_of(source, description);
     }
-    material.diffuse =
-        string_or(*ours, "diffuse", "lambert") == "disney" ? DiffuseModel::disney : DiffuseModel::lambert;
-    material.specular = number_or(*ours, "specular", material.specular);
+    if (blender != nullptr) {
+        const bool disney = string_or(*blender, "diffuse", "lambert") == "disney";
+        material.diffuse = disney ? DiffuseModel::disney : DiffuseModel::lambert;
+        material.specular = number_or(*blender, "specular", material.specular);
+    }
 }
 
 Material read_material(Source& source, TextureTable& textures, size_t index) {
@@ -57,15 +75,15 @@ Material read_material(Source& source, TextureTable& textures, size_t index) {
     material.name = typed.name;
     const auto& base = typed.pbrMetallicRoughness.baseColorFactor;
     material.base_color = glm::vec4(glm::dvec4(base[0], base[1], base[2], base[3]));
-    material.metallic = static_cast<float>(typed.pbrMetallicRoughness.metallicFactor);
-    material.roughness = static_cast<float>(typed.pbrMetallicRoughness.roughnessFactor);
+    material.metallic = std::clamp(static_cast<float>(typed.pbrMetallicRoughness.metallicFactor), 0.0F, 1.0F);
+    material.roughness =
+        std::clamp(static_cast<float>(typed.pbrMetallicRoughness.roughnessFactor), 0.0F, 1.0F);
     const auto& emissive = typed.emissiveFactor;
     material.emission = glm::vec3(glm::dvec3(emissive[0], emissive[1], emissive[2]));
     if (const json* strength = extension(description, "KHR_materials_emissive_strength")) {
-        material.emission_strength = number_or(*strength, "emissiveStrength", 1.0F);
+        material.emission_strength = std::max(number_or(*strength, "emissiveStrength", 1.0F), 0.0F);
     }
-    material.specular = specular_of(source, description);
-    read_blender_description(description, material);
+    read_reflection(source, description, material);
 
     static const json none = json::object();
     const json* pbr = member(description, "pbrMetallicRoughness");

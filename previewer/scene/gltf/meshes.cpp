@@ -70,10 +70,8 @@ std::vector<glm::vec3> read_normals(Source& source, const VertexAttributes& attr
     return normals;
 }
 
-std::vector<glm::vec3> read_deltas(const Source& source, const Accessors& accessors,
-                                   const VertexAttributes& attributes,
+std::vector<glm::vec3> read_deltas(const Accessors& accessors, const VertexAttributes& attributes,
                                    const std::map<std::string, int>& target, const char* name) {
-    (void)source;
     const auto found = target.find(name);
     if (found == target.end()) {
         return {};
@@ -121,9 +119,9 @@ std::optional<Primitive> read_primitive(Source& source, Buffers& buffers, const 
     primitive.colors = read_colors(source, attributes);
     read_influences(source, attributes, primitive);
     for (const auto& target : typed.targets) {
-        primitive.targets.push_back({read_deltas(source, accessors, attributes, target, "POSITION"),
-                                     read_deltas(source, accessors, attributes, target, "NORMAL"),
-                                     read_deltas(source, accessors, attributes, target, "TANGENT")});
+        primitive.targets.push_back({read_deltas(accessors, attributes, target, "POSITION"),
+                                     read_deltas(accessors, attributes, target, "NORMAL"),
+                                     read_deltas(accessors, attributes, target, "TANGENT")});
     }
 
     primitive.indices =
@@ -140,6 +138,7 @@ std::optional<Primitive> read_primitive(Source& source, Buffers& buffers, const 
 
     drop_unused_vertices(primitive);
     if (primitive.normals.empty()) {
+        Source::spend(source.spent.vertices, primitive.indices.size(), k_max_total_vertices, "vertices");
         make_flat_normals(primitive);
     }
     if (primitive.tangents.empty() && primitive.material != k_none) {

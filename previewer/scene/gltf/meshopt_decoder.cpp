@@ -54,9 +54,8 @@ std::vector<uint8_t> decode_meshopt(const nlohmann::json& description, std::span
     const auto stride = description["byteStride"].get<uint64_t>();
     const auto mode = description["mode"].get<std::string>();
     const std::string filter_name = description.value("filter", std::string("NONE"));
-    // A compressed block of 16 vertices takes at least a bit or so a byte column, so an honest stream
-    // cannot expand without end.
-    constexpr uint64_t most_expansion = 1024;
+    // The densest stream is one of constant attributes: two bits for sixteen vertices, a byte each.
+    constexpr uint64_t most_expansion = 64;
     if (count * stride > k_max_decoded_view_bytes || count * stride / most_expansion > bytes.size()) {
         throw refusal("{} would decompress to {} bytes from {}, which is not believable", whose,
                       count * stride, bytes.size());

@@ -56,7 +56,7 @@ std::optional<uint32_t> VertexAttributes::draco_id(const std::string& name) cons
 }
 
 void VertexAttributes::require_count(const std::string& name) const {
-    const size_t count = accessors_.count(accessor(name));
+    const size_t count = draco_id(name) ? draco_->vertex_count() : accessors_.count(accessor(name));
     if (count != vertex_count_) {
         throw refusal("{} has {} vertices, but {} of {}", whose_, vertex_count_, count, name);
     }
@@ -66,11 +66,11 @@ std::vector<float> VertexAttributes::floats(const std::string& name, int compone
     if (!has(name)) {
         return {};
     }
+    require_count(name);
     if (const auto id = draco_id(name)) {
         return draco_->floats(*id, components,
                               scale_of(source_.model.accessors[static_cast<size_t>(accessor(name))]));
     }
-    require_count(name);
     return accessors_.floats(accessor(name), components);
 }
 
@@ -78,10 +78,10 @@ std::vector<uint32_t> VertexAttributes::integers(const std::string& name, int co
     if (!has(name)) {
         return {};
     }
+    require_count(name);
     if (const auto id = draco_id(name)) {
         return draco_->integers(*id, components);
     }
-    require_count(name);
     return accessors_.integers(accessor(name), components);
 }
 
