@@ -7,10 +7,13 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "scene/gltf/png_check.h"
 #include "scene/gltf/uri.h"
 
 namespace bounce::scene::gltf {
 namespace {
+
+constexpr const char* k_png = "image.png";
 
 // The name under which OpenImageIO picks its reader, by the file's first bytes: the extension and the
 // MIME type are often wrong. Only the formats that glTF allows: the fewer decoders a file can reach, the
@@ -19,7 +22,7 @@ const char* reader_name(std::span<const uint8_t> bytes) {
     const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
                                  std::min<size_t>(bytes.size(), 16));
     if (start.starts_with("\x89PNG\r\n\x1a\n")) {
-        return "image.png";
+        return k_png;
     }
     if (start.starts_with("\xff\xd8\xff")) {
         return "image.jpg";
@@ -65,6 +68,9 @@ Image decode(Source& source, std::span<const uint8_t> bytes, const std::string& 
     const char* name = reader_name(bytes);
     if (name == nullptr) {
         throw refusal("{} is not a PNG, JPEG or WebP image", whose);
+    }
+    if (name == k_png && !is_whole_png(bytes)) {
+        throw refusal("{} cannot be decoded: the PNG data is damaged or cut short", whose);
     }
     OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(bytes.data()), bytes.size());
     OIIO::ImageSpec hints;

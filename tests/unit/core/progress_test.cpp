@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/progress.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace bounce {
+namespace {
+
+TEST(ProgressTest, OneLineAStepAwayFromATerminal) {
+    testing::internal::CaptureStderr();
+    {
+        Progress progress("Rendering", 2);
+        progress.step("frame 1");
+        progress.step("frame 2");
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "Rendering 1/2: frame 1\nRendering 2/2: frame 2\n");
+}
+
+TEST(ProgressTest, NoStepsAndMoreThanAnnounced) {
+    testing::internal::CaptureStderr();
+    {
+        const Progress idle("Idle", 0);
+        Progress more("More", 1);
+        more.step("a");
+        more.step("b");
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "More 1/1: a\nMore 2/1: b\n");
+}
+
+}  // namespace
+}  // namespace bounce
