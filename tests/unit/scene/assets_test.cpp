@@ -6,8 +6,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -148,6 +152,42 @@ TEST(Assets, CompressedVersionsAgree) {
             // Draco's 11 bits of position are 1/2000 of the extent, and bounds of skins add several.
             EXPECT_NEAR(glm::length(a.low - b.low), 0.0, 0.01 * a.diagonal());
             EXPECT_NEAR(glm::length(a.high - b.high), 0.0, 0.01 * a.diagonal());
+        }
+    }
+}
+
+// Compressed data comes from anywhere too: what the decoders make of damaged bytes must be checked.
+TEST(Assets, DamagedCompressedDataDoesNotCrash) {
+    if (!fs::exists(scenes_folder())) {
+        GTEST_SKIP() << "no scenes at " << scenes_folder() << "; set BOUNCE_SCENES_DIR";
+    }
+    const std::vector<std::string> folders{
+        "khronos/RiggedSimple/glTF-Draco", "khronos/CesiumMan/glTF-Draco",
+        "compressed/gltf-pipeline/EXT_meshopt_compression/meshopt-no-fallback"};
+    for (const std::string& name : folders) {
+        const TemporaryFolder copy;
+        fs::copy(scenes_folder() / name, copy.path(), fs::copy_options::recursive);
+        const fs::path scene = gltf_files(copy.path()).at(0);
+        fs::path data;
+        for (const auto& entry : fs::directory_iterator(copy.path())) {
+            data = entry.path().extension() == ".bin" ? entry.path() : data;
+        }
+        ASSERT_FALSE(data.empty()) << name;
+        std::ifstream in(data, std::ios::binary);
+        const std::vector<uint8_t> whole{std::istreambuf_iterator<char>(in), {}};
+        for (unsigned seed = 0; seed < 200; ++seed) {
+            SCOPED_TRACE(fmt::format("{} seed {}", name, seed));
+            std::mt19937 random(seed);
+            std::vector<uint8_t> bytes = whole;
+            for (auto flips = 1 + random() % 20; flips > 0; --flips) {
+                bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+            }
+            copy.write(data.filename().string(), bytes);
+            try {
+                expect_sane(load_gltf(scene).scene);
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ExitCode::input_refused) << error.what();
+            }
         }
     }
 }

@@ -110,6 +110,11 @@ TEST(Mutation, TheUndamagedFileLoads) {
     EXPECT_TRUE(survives(folder, everything().glb()));
 }
 
+// Where the binary chunk starts, as the file's header says.
+size_t binary_start(const std::vector<uint8_t>& glb) {
+    return 20 + glb[12] + 256U * glb[13] + 65536U * glb[14] + 8;
+}
+
 TEST(Mutation, FlippedBytes) {
     const TemporaryFolder folder;
     const std::vector<uint8_t> whole = everything().glb();
@@ -118,26 +123,26 @@ TEST(Mutation, FlippedBytes) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         std::vector<uint8_t> bytes = whole;
-        const unsigned flips = 1 + random() % 8;
-        for (unsigned i = 0; i < flips; ++i) {
-            bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+        // Damage to the JSON seldom passes the parser, so half of the files keep theirs.
+        const size_t start = seed % 2 == 0 ? 0 : binary_start(whole);
+        for (auto flips = 1 + random() % 8; flips > 0; --flips) {
+            bytes[start + random() % (bytes.size() - start)] = static_cast<uint8_t>(random());
         }
         loaded += survives(folder, bytes) ? 1 : 0;
     }
-    // The damage must often enough pass the parser to reach what comes after it.
-    EXPECT_GT(loaded, 50);
+    EXPECT_GT(loaded, 100);
 }
 
 // Digits of the JSON changed into other digits: still JSON, but other indices, counts and offsets.
 TEST(Mutation, ChangedNumbers) {
     const TemporaryFolder folder;
     const std::vector<uint8_t> whole = everything().glb();
-    const size_t json_end = 20 + whole[12] + 256U * whole[13] + 65536U * whole[14];
+    const size_t json_end = binary_start(whole) - 8;
     for (unsigned seed = 0; seed < 1500; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         std::vector<uint8_t> bytes = whole;
-        for (unsigned changes = 1 + random() % 4; changes > 0;) {
+        for (auto changes = 1 + random() % 4; changes > 0;) {
             uint8_t& byte = bytes[20 + random() % (json_end - 20)];
             if (byte >= '0' && byte <= '9') {
                 byte = static_cast<uint8_t>('0' + random() % 10);
