@@ -25,10 +25,6 @@ bool without_look(const ViewTransform& view) {
     return view.look.empty() || view.look == "None";
 }
 
-bool is_plain_standard(const ViewTransform& view) {
-    return view.view_transform == "Standard" && view.display_device == "sRGB" && without_look(view);
-}
-
 // As Blender guards it: a gamma of 0 would divide by zero.
 float gamma_exponent(const ViewTransform& view) {
     return 1.0F / std::max(view.gamma, std::numeric_limits<float>::epsilon());
@@ -124,6 +120,10 @@ ocio::ConstCPUProcessorRcPtr processor_for(const ViewTransform& view) {
 }
 
 }  // namespace
+
+bool is_plain_standard(const ViewTransform& view) {
+    return view.view_transform == "Standard" && view.display_device == "sRGB" && without_look(view);
+}
 
 Image to_display(const Image& scene_linear, const ViewTransform& view) {
     Image display;

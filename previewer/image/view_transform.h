@@ -16,6 +16,9 @@ struct ViewTransform {
     float gamma = 1.0F;
 };
 
+// True where the transform is exposure, the sRGB curve and gamma alone, and needs no configuration.
+[[nodiscard]] bool is_plain_standard(const ViewTransform& view);
+
 // Display-referred copy of a scene-linear image, 0..1, by Blender's OpenColorIO configuration where one is
 // found ($OCIO, then the datafiles of the Blender on this machine). "Standard" needs no configuration:
 // exposure, the sRGB curve, gamma. Without a configuration any other transform falls back to Standard,

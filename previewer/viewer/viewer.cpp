@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "gl/debug_output.h"
+#include "viewer/camera_controls.h"
+#include "viewer/display.h"
+#include "viewer/frame_clock.h"
+#include "viewer/hot_reload.h"
+#include "viewer/panels.h"
+#include "viewer/screenshot.h"
+#include "viewer/state_commands.h"
+#include "viewer/user_interface.h"
+#include "viewer/window.h"
+
+namespace bounce::viewer {
+namespace {
+
+// How often the scene's file is looked at while nothing happens.
+constexpr double k_idle_s = 0.25;
+constexpr double k_message_s = 5.0;
+// ImGui takes a frame to see an event, one to answer and one to settle its layout.
+constexpr int k_redraws = 3;
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class Viewer {
+  public:
+    Viewer(const ViewerOptions& options, SceneReloader& reloader, scene::LoadResult loaded, const Settings& settings)
+        : options_(options),
+          reloader_(reloader),
+          window_(fmt::format("{} - Bounce", loaded.scene.name), {settings.width, settings.height}),
+          device_(gl::initialise_current_context()),
+          interface_(window_.handle(), window_.content_scale()),
+          stage_(std::make_unique<Stage>(std::move(loaded), options.choose_animation)),
+          playback_(stage_->scene().frames) {
+        state_.settings = settings;
+        state_.camera_node = stage_->scene().active_camera_node;
+        playback_.seek(options.frame.value_or(playback_.frame()), seconds_now());
+        if (!options.camera.empty()) {
+            // Refuses a name that is not there with the sentence that bounce render has.
+            (void)scene_camera(stage_->scene(), stage_->pose(), options.camera, settings.width, settings.height);
+            state_.camera_node = stage_->find_camera(options.camera);
+        }
+    }
+
+    void run() {
+        while (!window_.should_close()) {
+            take_events();
+            const double now = seconds_now();
+            take_reloaded(now);
+            picture_changed_ |= playback_.advance(now);
+            if (!message_.empty() && now > message_until_s_) {
+                message_.clear();
+                redraws_ = k_redraws;
+            }
+            if (picture_changed_ || redraws_ > 0) {
+                draw(now);
+            }
+        }
+    }
+
+  private:
+    void take_events() {
+        if (picture_changed_ || redraws_ > 0) {
+            window_.poll();
+        } else {
+            const double next = playback_.playing() ? playback_.seconds_to_next(seconds_now()) : k_idle_s;
+            window_.wait(std::min(next, k_idle_s));
+        }
+        Input now = window_.take_input();
+        if (now.any) {
+            redraws_ = k_redraws;
+        }
+        std::move(now.commands.begin(), now.commands.end(), std::back_inserter(input_.commands));
+        input_.drag = now.drag;
+        input_.drag_began |= now.drag_began;
+        input_.moved += now.moved;
+        input_.scrolled += now.scrolled;
+    }
+
+    // Everything of one turn that ends in a new content of the window.
+    void draw(double now) {
+        const glm::ivec2 room = window_.framebuffer_size();
+        if (room.x < 1 || room.y < 1) {  // minimised: nothing to see, so nothing to do until that changes
+            redraws_ = 0;
+            picture_changed_ = false;
+            input_ = {};
+            window_.wait(k_idle_s);
+            return;
+        }
+        interface_.begin();
+        answer_input(now);
+        const std::vector<std::string> lights = stage_->shown_lights(state_.settings);
+        PanelResult panels = draw_panels(state_, playback_, facts(lights, now));
+        picture_changed_ |= panels.picture_changed;
+        for (const Command command : panels.commands) {
+            perform(command, now);
+        }
+        const glm::ivec2 size = glm::max(room / state_.render_divisor, glm::ivec2(1));
+        if (picture_changed_ || size != glm::ivec2(state_.settings.width, state_.settings.height)) {
+            state_.settings.width = size.x;
+            state_.settings.height = size.y;
+            render_picture();
+            redraws_ = std::max(redraws_, 2);  // the panels tell about the picture one frame later
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        display_.draw(stage_->renderer().color(), shown_view(), room.x, room.y);
+        interface_.draw();
+        window_.swap();
+        redraws_ = std::max(0, redraws_ - 1);
+    }
+
+    void answer_input(double now) {
+        Input input = std::exchange(input_, Input{});
+        if (input.drag_began) {
+            drag_is_panels_ = interface_.wants_mouse();
+        }
+        if (!interface_.wants_text()) {
+            for (const Command command : input.commands) {
+                perform(command, now);
+            }
+        }
+        const bool drags = input.drag && !drag_is_panels_ && input.moved != glm::dvec2(0.0);
+        const bool scrolls = input.scrolled != 0.0 && !interface_.wants_mouse();
+        if (drags && *input.drag == Drag::orbit) {
+            controls().orbit(input.moved.x, input.moved.y);
+        } else if (drags && *input.drag == Drag::pan) {
+            controls().pan(input.moved.x, input.moved.y, state_.settings.width, state_.settings.height);
+        } else if (drags) {
+            constexpr double steps_a_height = 20.0;
+            controls().zoom(-steps_a_height * input.moved.y);
+        }
+        if (scrolls) {
+            controls().zoom(input.scrolled);
+        }
+        picture_changed_ |= drags || scrolls;
+    }
+
+    // The free camera; it starts where the scene's stands.
+    CameraControls& controls() {
+        if (!state_.free_camera) {
+            controls_.emplace(view(), stage_->bounds());
+            state_.free_camera = true;
+        }
+        return *controls_;
+    }
+
+    [[nodiscard]] CameraView view() const {
+        return state_.free_camera
+                   ? controls_->view()
+                   : stage_->camera_view(state_.camera_node, state_.settings.width, state_.settings.height);
+    }
+
+    void perform(Command command, double now) {
+        const Effect effect = perform_on_state(command, state_, playback_, now);
+        if (effect != Effect::not_here) {
+            picture_changed_ |= effect == Effect::picture_changed;
+            return;
+        }
+        switch (command) {
+            case Command::frame_all:
+                controls().frame_all(stage_->bounds(), state_.settings.width, state_.settings.height);
+                break;
+            case Command::active_camera:
+                state_.camera_node = stage_->scene().active_camera_node;
+                state_.free_camera = false;
+                break;
+            case Command::next_camera:
+                next_camera(now);
+                break;
+            case Command::next_light:
+                next_light(now);
+                break;
+            case Command::screenshot:
+                save(now);
+                return;
+            case Command::quit:
+                window_.close();
+                return;
+            default:
+                return;
+        }
+        picture_changed_ = true;
+    }
+
+    void next_camera(double now) {
+        const std::vector<int>& cameras = stage_->cameras();
+        if (cameras.empty()) {
+            say("the scene has no camera", now);
+            return;
+        }
+        const auto found = std::find(cameras.begin(), cameras.end(), state_.camera_node);
+        const bool at_end = found == cameras.end() || found + 1 == cameras.end();
+        state_.camera_node = at_end ? cameras.front() : *(found + 1);
+        state_.free_camera = false;
+        say(fmt::format("camera {}", stage_->camera_name(state_.camera_node)), now);
+    }
+
+    void next_light(double now) {
+        const std::vector<std::string> lights = stage_->shown_lights(state_.settings);
+        if (lights.empty()) {
+            say("no light of the scene sends light", now);
+            return;
+        }
+        state_.settings.shown_light = (state_.settings.shown_light + 1) % static_cast<int>(lights.size());
+        say(fmt::format("light {}", lights[static_cast<size_t>(state_.settings.shown_light)]), now);
+    }
+
+    void save(double now) {
+        if (!stage_->renderer().color()) {
+            return;  // asked for before the first frame
+        }
+        try {
+            const auto path = save_screenshot(std::filesystem::current_path(), options_.scene.stem().string(),
+                                              playback_.frame(), stage_->renderer().read_color(), shown_view());
+            say(fmt::format("saved {} and its .exr", path.string()), now);
+            log::info("saved {} and its .exr", path.string());
+        } catch (const Error& error) {
+            say(error.what(), now);
+            log::error("{}", error.what());
+        }
+    }
+
+    void say(std::string message, double now) {
+        message_ = std::move(message);
+        message_until_s_ = now + k_message_s;
+        redraws_ = k_redraws;
+    }
+
+    // What the window does to the picture's colours; layers of data are shown without the scene's look,
+    // as bounce render writes them.
+    [[nodiscard]] ViewTransform shown_view() const {
+        ViewTransform view;
+        if (shows_light(state_.settings.show)) {
+            const scene::ViewSettings& scene = stage_->pose().view;
+            view = {scene.display_device, scene.view_transform, scene.look, scene.exposure, scene.gamma};
+        }
+        view.exposure += state_.exposure_stops;
+        return view;
+    }
+
+    [[nodiscard]] PanelFacts facts(const std::vector<std::string>& lights, double now) const {
+        const Show show = state_.settings.show;
+        std::string note;
+        if (!shows_light(show) && state_.settings.technique == Technique::direct) {
+            note = "technique direct has no reflective shadow maps to show; T switches to rsm";
+        } else if (!shows_light(show) && lights.empty()) {
+            note = "no light of the scene sends light, so there is no reflective shadow map to show";
+        } else if (show == Show::interpolation && (!state_.settings.interpolate || state_.settings.rsm_full_sum)) {
+            note = "interpolation is off, so there is nothing to show of it; I switches it on";
+        } else if (show == Show::indirect && state_.settings.technique == Technique::direct) {
+            note = "technique direct has no indirect light; T switches to rsm";
+        }
+        return {.stage = *stage_,
+                .report = report_,
+                .pass_times = report_.passes,
+                .lights = lights,
+                .device = device_.renderer,
+                .message = message_,
+                .problem = problem_,
+                .note = std::move(note),
+                .frame_ms = frame_clock_.median_ms(),
+                .now_s = now,
+                .content_scale = window_.content_scale()};
+    }
+
+    void render_picture() {
+        stage_->set_time(playback_.time_s());
+        const gl::TimingMode timing = !state_.time_passes ? gl::TimingMode::off
+                                      : device_.software  ? gl::TimingMode::finish
+                                                          : gl::TimingMode::query;
+        const auto start = seconds_now();
+        report_ = stage_->renderer().render(stage_->pose(), view(), state_.settings, timing);
+        glFinish();
+        frame_clock_.add((seconds_now() - start) * 1000.0);
+        picture_changed_ = false;
+    }
+
+    // Puts a changed file's scene on stage, or says why not and keeps what is there.
+    void take_reloaded(double now) {
+        std::optional<SceneReloader::Loaded> reloaded = reloader_.poll(now);
+        if (!reloaded) {
+            return;
+        }
+        redraws_ = k_redraws;
+        if (const auto* why_not = std::get_if<std::string>(&*reloaded)) {
+            refuse_reloaded(*why_not);
+            return;
+        }
+        try {
+            auto stage = std::make_unique<Stage>(std::get<scene::LoadResult>(std::move(*reloaded)),
+                                                 options_.choose_animation);
+            const std::string camera =
+                state_.camera_node == scene::k_none ? std::string() : stage_->camera_name(state_.camera_node);
+            const int found = stage->find_camera(camera);
+            state_.camera_node = found == scene::k_none ? stage->scene().active_camera_node : found;
+            playback_.set_range(stage->scene().frames);
+            stage_ = std::move(stage);
+        } catch (const Error& error) {
+            refuse_reloaded(error.what());
+            return;
+        }
+        problem_.clear();
+        frame_clock_.clear();
+        picture_changed_ = true;
+        say(fmt::format("loaded {} again", stage_->scene().name), now);
+    }
+
+    void refuse_reloaded(const std::string& why) {
+        problem_ = fmt::format("the changed file is not shown: {}", why);
+        log::warning("{}", problem_);
+    }
+
+    const ViewerOptions& options_;
+    SceneReloader& reloader_;
+    Window window_;  // before all that needs its context
+    gl::DeviceInfo device_;
+    UserInterface interface_;
+    Display display_;
+    std::unique_ptr<Stage> stage_;
+    Playback playback_;
+    ViewState state_;
+    std::optional<CameraControls> controls_;
+
+    Input input_;
+    bool drag_is_panels_ = false;
+    bool picture_changed_ = true;
+    int redraws_ = k_redraws;
+    FrameReport report_;
+    FrameClock frame_clock_;
+    std::string message_;
+    double message_until_s_ = 0.0;
+    std::string problem_;
+};
+
+}  // namespace
+
+void run_viewer(const ViewerOptions& options) {
+    SceneReloader reloader(options.scene);
+    scene::LoadResult loaded = scene::load_gltf(options.scene);
+    for (const std::string& warning : loaded.warnings) {
+        log::warning("{}", warning);
+    }
+    const Settings settings = options.choose_settings(loaded.scene);
+    Viewer viewer(options, reloader, std::move(loaded), settings);
+    viewer.run();
+}
+
+}  // namespace bounce::viewer

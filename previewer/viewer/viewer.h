@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "renderer/settings.h"
+#include "viewer/stage.h"
+
+namespace bounce::viewer {
+
+struct ViewerOptions {
+    std::filesystem::path scene;
+    // Given the scene: what to render at first; width and height are the window's. Throws usage_error.
+    std::function<Settings(const scene::Scene&)> choose_settings;
+    ChooseAnimation choose_animation;
+    std::string camera;        // node by name; the active one where empty
+    std::optional<int> frame;  // to begin at
+};
+
+// Opens a window and returns when it is closed. Throws Error: no_opengl without a display, input_refused
+// where the scene cannot be read.
+void run_viewer(const ViewerOptions& options);
+
+}  // namespace bounce::viewer
