@@ -18,7 +18,7 @@ constexpr ImGuiWindowFlags k_fixed =
 constexpr float k_side_width = 292.0F;
 constexpr float k_margin = 10.0F;
 
-void side_panel(ViewState& state, const PanelFacts& facts, float bottom, PanelResult& result) {
+void side_panel(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, float bottom, PanelResult& result) {
     const float scale = facts.content_scale;
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float margin = k_margin * scale;
@@ -33,7 +33,7 @@ void side_panel(ViewState& state, const PanelFacts& facts, float bottom, PanelRe
                                      : std::string("not measured yet");
         ImGui::TextDisabled("%d x %d   %s", state.settings.width, state.settings.height, cost.c_str());
         ImGui::Separator();
-        view_section(state, facts, result);
+        view_section(state, viewpoint, facts, result);
         technique_section(state, result);
         frame_section(state, facts, result);
         notes_section(facts);
@@ -137,11 +137,11 @@ void help(ViewState& state) {
 
 }  // namespace
 
-PanelResult draw_panels(ViewState& state, Playback& playback, const PanelFacts& facts) {
+PanelResult draw_panels(ViewState& state, Viewpoint& viewpoint, Playback& playback, const PanelFacts& facts) {
     PanelResult result;
     if (state.show_panels) {
         const float bottom = timeline(playback, facts, result);
-        side_panel(state, facts, bottom, result);
+        side_panel(state, viewpoint, facts, bottom, result);
     }
     messages(facts);
     if (state.show_help) {

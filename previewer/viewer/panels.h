@@ -12,6 +12,7 @@
 #include "viewer/playback.h"
 #include "viewer/stage.h"
 #include "viewer/view_state.h"
+#include "viewer/viewpoint.h"
 
 namespace bounce::viewer {
 
@@ -35,6 +36,6 @@ struct PanelResult {
     std::vector<Command> commands;
 };
 
-[[nodiscard]] PanelResult draw_panels(ViewState& state, Playback& playback, const PanelFacts& facts);
+[[nodiscard]] PanelResult draw_panels(ViewState& state, Viewpoint& viewpoint, Playback& playback, const PanelFacts& facts);
 
 }  // namespace bounce::viewer

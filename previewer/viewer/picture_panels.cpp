@@ -59,24 +59,24 @@ void choose_light(Settings& settings, const PanelFacts& facts, PanelResult& resu
     }
 }
 
-void choose_camera(ViewState& state, const PanelFacts& facts, PanelResult& result) {
+void choose_camera(Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
     const Stage& stage = facts.stage;
-    const std::string current = state.free_camera                      ? "free (moved by the mouse)"
-                                : state.camera_node == scene::k_none ? "the whole scene"
-                                                                       : stage.camera_name(state.camera_node);
+    const int looking = viewpoint.node();
+    const std::string current = viewpoint.is_free()         ? "free"
+                                : looking == scene::k_none ? "the whole scene"
+                                                           : stage.camera_name(looking);
     if (ImGui::BeginCombo("camera", current.c_str())) {
         for (const int node : stage.cameras()) {
             const bool active = node == stage.scene().active_camera_node;
             const std::string name = stage.camera_name(node) + (active ? " (active)" : "");
             ImGui::PushID(node);
-            if (ImGui::Selectable(name.c_str(), !state.free_camera && node == state.camera_node)) {
-                state.camera_node = node;
-                state.free_camera = false;
+            if (ImGui::Selectable(name.c_str(), !viewpoint.is_free() && node == looking)) {
+                viewpoint.look_through(node);
                 result.picture_changed = true;
             }
             ImGui::PopID();
         }
-        if (stage.cameras().empty() && ImGui::Selectable("the whole scene", !state.free_camera)) {
+        if (stage.cameras().empty() && ImGui::Selectable("the whole scene", !viewpoint.is_free())) {
             result.commands.push_back(Command::active_camera);
         }
         ImGui::EndCombo();
@@ -91,7 +91,7 @@ void bullet(const std::string& text) {
 
 }  // namespace
 
-void view_section(ViewState& state, const PanelFacts& facts, PanelResult& result) {
+void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
     constexpr std::array<const char*, 8> shows = {"shaded",       "direct light", "indirect light", "RSM depth",
                                                   "RSM position", "RSM normal",   "RSM flux",       "interpolation"};
     result.picture_changed |= choose("show", shows, state.settings.show);
@@ -100,7 +100,7 @@ void view_section(ViewState& state, const PanelFacts& facts, PanelResult& result
     }
     // The picture stays; only its display changes.
     ImGui::SliderFloat("exposure", &state.exposure_stops, -8.0F, 8.0F, "%+.1f stops");
-    choose_camera(state, facts, result);
+    choose_camera(viewpoint, facts, result);
     if (ImGui::Button("Frame all")) {
         result.commands.push_back(Command::frame_all);
     }

@@ -8,7 +8,7 @@
 namespace bounce::viewer {
 
 // What is shown and from where: mode, light, exposure, camera.
-void view_section(ViewState& state, const PanelFacts& facts, PanelResult& result);
+void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result);
 // How it is computed: technique, samples, interpolation, map sizes.
 void technique_section(ViewState& state, PanelResult& result);
 // What the frame did and cost.

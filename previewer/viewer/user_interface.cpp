@@ -75,6 +75,8 @@ void set_style(float scale) {
     style.IndentSpacing = 12.0F;
 
     const ImVec4 accent{0.93F, 0.55F, 0.22F, 1.0F};
+    // A slider's number stays readable under its handle.
+    const ImVec4 handle{0.93F, 0.55F, 0.22F, 0.75F};
     ImVec4* colors = static_cast<ImVec4*>(style.Colors);
     colors[ImGuiCol_WindowBg] = grey(0.09F, 0.90F);
     colors[ImGuiCol_PopupBg] = grey(0.11F, 0.98F);
@@ -90,8 +92,10 @@ void set_style(float scale) {
     colors[ImGuiCol_HeaderHovered] = grey(0.25F);
     colors[ImGuiCol_HeaderActive] = grey(0.30F);
     colors[ImGuiCol_Separator] = grey(0.25F);
-    colors[ImGuiCol_SliderGrab] = colors[ImGuiCol_CheckMark] = accent;
-    colors[ImGuiCol_SliderGrabActive] = {1.0F, 0.66F, 0.34F, 1.0F};
+    colors[ImGuiCol_CheckMark] = accent;
+    colors[ImGuiCol_SliderGrab] = handle;
+    colors[ImGuiCol_SliderGrabActive] = {1.0F, 0.66F, 0.34F, 0.85F};
+    colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgActive] = grey(0.17F);
     style.ScaleAllSizes(scale);
 }
 

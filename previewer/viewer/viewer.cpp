@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "gl/debug_output.h"
-#include "viewer/camera_controls.h"
 #include "viewer/display.h"
 #include "viewer/frame_clock.h"
 #include "viewer/hot_reload.h"
@@ -20,6 +19,7 @@
 #include "viewer/screenshot.h"
 #include "viewer/state_commands.h"
 #include "viewer/user_interface.h"
+#include "viewer/viewpoint.h"
 #include "viewer/window.h"
 
 namespace bounce::viewer {
@@ -44,14 +44,14 @@ class Viewer {
           device_(gl::initialise_current_context()),
           interface_(window_.handle(), window_.content_scale()),
           stage_(std::make_unique<Stage>(std::move(loaded), options.choose_animation)),
+          viewpoint_(stage_->scene().active_camera_node),
           playback_(stage_->scene().frames) {
         state_.settings = settings;
-        state_.camera_node = stage_->scene().active_camera_node;
         playback_.seek(options.frame.value_or(playback_.frame()), seconds_now());
         if (!options.camera.empty()) {
             // Refuses a name that is not there with the sentence that bounce render has.
             (void)scene_camera(stage_->scene(), stage_->pose(), options.camera, settings.width, settings.height);
-            state_.camera_node = stage_->find_camera(options.camera);
+            viewpoint_.look_through(stage_->find_camera(options.camera));
         }
     }
 
@@ -103,7 +103,7 @@ class Viewer {
         interface_.begin();
         answer_input(now);
         const std::vector<std::string> lights = stage_->shown_lights(state_.settings);
-        PanelResult panels = draw_panels(state_, playback_, facts(lights, now));
+        PanelResult panels = draw_panels(state_, viewpoint_, playback_, facts(lights, now));
         picture_changed_ |= panels.picture_changed;
         for (const Command command : panels.commands) {
             perform(command, now);
@@ -116,7 +116,7 @@ class Viewer {
             redraws_ = std::max(redraws_, 2);  // the panels tell about the picture one frame later
         }
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        display_.draw(stage_->renderer().color(), shown_view(), room.x, room.y);
+        display_.draw(stage_->renderer().color(), shown_view(state_, stage_->pose().view), room.x, room.y);
         interface_.draw();
         window_.swap();
         redraws_ = std::max(0, redraws_ - 1);
@@ -135,32 +135,21 @@ class Viewer {
         const bool drags = input.drag && !drag_is_panels_ && input.moved != glm::dvec2(0.0);
         const bool scrolls = input.scrolled != 0.0 && !interface_.wants_mouse();
         if (drags && *input.drag == Drag::orbit) {
-            controls().orbit(input.moved.x, input.moved.y);
+            free_camera().orbit(input.moved.x, input.moved.y);
         } else if (drags && *input.drag == Drag::pan) {
-            controls().pan(input.moved.x, input.moved.y, state_.settings.width, state_.settings.height);
+            free_camera().pan(input.moved.x, input.moved.y, state_.settings.width, state_.settings.height);
         } else if (drags) {
             constexpr double steps_a_height = 20.0;
-            controls().zoom(-steps_a_height * input.moved.y);
+            free_camera().zoom(-steps_a_height * input.moved.y);
         }
         if (scrolls) {
-            controls().zoom(input.scrolled);
+            free_camera().zoom(input.scrolled);
         }
         picture_changed_ |= drags || scrolls;
     }
 
-    // The free camera; it starts where the scene's stands.
-    CameraControls& controls() {
-        if (!state_.free_camera) {
-            controls_.emplace(view(), stage_->bounds());
-            state_.free_camera = true;
-        }
-        return *controls_;
-    }
-
-    [[nodiscard]] CameraView view() const {
-        return state_.free_camera
-                   ? controls_->view()
-                   : stage_->camera_view(state_.camera_node, state_.settings.width, state_.settings.height);
+    CameraControls& free_camera() {
+        return viewpoint_.free(*stage_, state_.settings.width, state_.settings.height);
     }
 
     void perform(Command command, double now) {
@@ -171,11 +160,10 @@ class Viewer {
         }
         switch (command) {
             case Command::frame_all:
-                controls().frame_all(stage_->bounds(), state_.settings.width, state_.settings.height);
+                free_camera().frame_all(stage_->bounds(), state_.settings.width, state_.settings.height);
                 break;
             case Command::active_camera:
-                state_.camera_node = stage_->scene().active_camera_node;
-                state_.free_camera = false;
+                viewpoint_.look_through(stage_->scene().active_camera_node);
                 break;
             case Command::next_camera:
                 next_camera(now);
@@ -196,16 +184,12 @@ class Viewer {
     }
 
     void next_camera(double now) {
-        const std::vector<int>& cameras = stage_->cameras();
-        if (cameras.empty()) {
+        if (stage_->cameras().empty()) {
             say("the scene has no camera", now);
             return;
         }
-        const auto found = std::find(cameras.begin(), cameras.end(), state_.camera_node);
-        const bool at_end = found == cameras.end() || found + 1 == cameras.end();
-        state_.camera_node = at_end ? cameras.front() : *(found + 1);
-        state_.free_camera = false;
-        say(fmt::format("camera {}", stage_->camera_name(state_.camera_node)), now);
+        viewpoint_.look_through_next(*stage_);
+        say(fmt::format("camera {}", stage_->camera_name(viewpoint_.node())), now);
     }
 
     void next_light(double now) {
@@ -224,7 +208,7 @@ class Viewer {
         }
         try {
             const auto path = save_screenshot(std::filesystem::current_path(), options_.scene.stem().string(),
-                                              playback_.frame(), stage_->renderer().read_color(), shown_view());
+                                              playback_.frame(), stage_->renderer().read_color(), shown_view(state_, stage_->pose().view));
             say(fmt::format("saved {} and its .exr", path.string()), now);
             log::info("saved {} and its .exr", path.string());
         } catch (const Error& error) {
@@ -239,30 +223,7 @@ class Viewer {
         redraws_ = k_redraws;
     }
 
-    // What the window does to the picture's colours; layers of data are shown without the scene's look,
-    // as bounce render writes them.
-    [[nodiscard]] ViewTransform shown_view() const {
-        ViewTransform view;
-        if (shows_light(state_.settings.show)) {
-            const scene::ViewSettings& scene = stage_->pose().view;
-            view = {scene.display_device, scene.view_transform, scene.look, scene.exposure, scene.gamma};
-        }
-        view.exposure += state_.exposure_stops;
-        return view;
-    }
-
     [[nodiscard]] PanelFacts facts(const std::vector<std::string>& lights, double now) const {
-        const Show show = state_.settings.show;
-        std::string note;
-        if (!shows_light(show) && state_.settings.technique == Technique::direct) {
-            note = "technique direct has no reflective shadow maps to show; T switches to rsm";
-        } else if (!shows_light(show) && lights.empty()) {
-            note = "no light of the scene sends light, so there is no reflective shadow map to show";
-        } else if (show == Show::interpolation && (!state_.settings.interpolate || state_.settings.rsm_full_sum)) {
-            note = "interpolation is off, so there is nothing to show of it; I switches it on";
-        } else if (show == Show::indirect && state_.settings.technique == Technique::direct) {
-            note = "technique direct has no indirect light; T switches to rsm";
-        }
         return {.stage = *stage_,
                 .report = report_,
                 .pass_times = report_.passes,
@@ -270,7 +231,7 @@ class Viewer {
                 .device = device_.renderer,
                 .message = message_,
                 .problem = problem_,
-                .note = std::move(note),
+                .note = why_not_shown(state_.settings, lights.size()),
                 .frame_ms = frame_clock_.median_ms(),
                 .now_s = now,
                 .content_scale = window_.content_scale()};
@@ -281,8 +242,9 @@ class Viewer {
         const gl::TimingMode timing = !state_.time_passes ? gl::TimingMode::off
                                       : device_.software  ? gl::TimingMode::finish
                                                           : gl::TimingMode::query;
-        const auto start = seconds_now();
-        report_ = stage_->renderer().render(stage_->pose(), view(), state_.settings, timing);
+        const CameraView view = viewpoint_.view(*stage_, state_.settings.width, state_.settings.height);
+        const double start = seconds_now();
+        report_ = stage_->renderer().render(stage_->pose(), view, state_.settings, timing);
         glFinish();
         frame_clock_.add((seconds_now() - start) * 1000.0);
         picture_changed_ = false;
@@ -302,10 +264,7 @@ class Viewer {
         try {
             auto stage = std::make_unique<Stage>(std::get<scene::LoadResult>(std::move(*reloaded)),
                                                  options_.choose_animation);
-            const std::string camera =
-                state_.camera_node == scene::k_none ? std::string() : stage_->camera_name(state_.camera_node);
-            const int found = stage->find_camera(camera);
-            state_.camera_node = found == scene::k_none ? stage->scene().active_camera_node : found;
+            viewpoint_.move_to(*stage_, *stage);
             playback_.set_range(stage->scene().frames);
             stage_ = std::move(stage);
         } catch (const Error& error) {
@@ -330,9 +289,9 @@ class Viewer {
     UserInterface interface_;
     Display display_;
     std::unique_ptr<Stage> stage_;
+    Viewpoint viewpoint_;
     Playback playback_;
     ViewState state_;
-    std::optional<CameraControls> controls_;
 
     Input input_;
     bool drag_is_panels_ = false;
