@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "cli/commands.h"
 #include "cli/render_options.h"
+#include "cli/scene_source.h"
+#include "scene/gltf_loader.h"
 #include "viewer/viewer.h"
 
 namespace bounce::cli {
 namespace {
 
 struct Arguments {
-    std::string scene;
+    std::filesystem::path scene;
+    SceneSourceOptions source;
     std::optional<int> frame;
     RenderOptions render;
 };
 
+scene::LoadResult load(const Arguments& arguments) {
+    scene::LoadResult loaded = scene::load_gltf(resolve_scene(arguments.scene, arguments.source).gltf);
+    loaded.scene.name = arguments.scene.filename().string();  // an export is in the cache, by another name
+    return loaded;
+}
+
 ExitCode view(const Arguments& arguments) {
     viewer::run_viewer({
         .scene = arguments.scene,
+        .load = [&] { return load(arguments); },
         .choose_settings = [&](const scene::Scene& scene) { return arguments.render.settings(scene); },
         .choose_animation = [&](const scene::Scene& scene) { return arguments.render.animation_index(scene); },
         .camera = arguments.render.camera,
@@ -32,9 +43,10 @@ ExitCode view(const Arguments& arguments) {
 void add_view(CLI::App& app, Run& run) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("view", "Look at a scene in a window; F1 lists the keys");
-    command->add_option("scene", arguments->scene, "Scene: .glb or .gltf")->required();
+    command->add_option("scene", arguments->scene, "Scene: .glb, .gltf or .blend; shown again whenever it is saved")->required();
     command->add_option("--frame", arguments->frame, "Blender frame number to begin at; the first by default");
     arguments->render.add_to(*command);
+    add_scene_source_options(*command, arguments->source);
     command->get_option("--size")->description("Size of the window, such as 1280x720; the scene's own by default");
     command->callback([arguments, &run] { run = [arguments] { return view(*arguments); }; });
 }

@@ -15,9 +15,9 @@ namespace {
 // Exporters flush their buffers many times within this.
 constexpr double k_rest_s = 0.3;
 
-SceneReloader::Loaded load(const fs::path& path) {
+SceneReloader::Loaded load_or_say_why_not(const LoadScene& load) {
     try {
-        return scene::load_gltf(path);
+        return load();
     } catch (const Error& error) {
         return std::string(error.what());
     } catch (const std::bad_alloc&) {
@@ -65,7 +65,7 @@ std::optional<SceneReloader::Loaded> SceneReloader::poll(double now_s) {
         return loading_.get();
     }
     if (watch_.changed(now_s)) {
-        loading_ = std::async(std::launch::async, load, path_);
+        loading_ = std::async(std::launch::async, load_or_say_why_not, load_);
     }
     return std::nullopt;
 }

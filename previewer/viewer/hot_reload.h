@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "scene/gltf_loader.h"
@@ -37,19 +39,23 @@ class FileWatch {
     double candidate_since_s_ = 0.0;
 };
 
+// Reads a scene; throws Error where it cannot be read. May be called on any thread.
+using LoadScene = std::function<scene::LoadResult()>;
+
 // Reads a scene again when its file changes, on a thread of its own, so that the window stays alive.
 class SceneReloader {
   public:
     using Loaded = std::variant<scene::LoadResult, std::string>;  // or the sentence why not
 
-    explicit SceneReloader(const std::filesystem::path& path) : path_(path), watch_(path) {}
+    // Make it before reading the scene for the first time.
+    SceneReloader(const std::filesystem::path& path, LoadScene load) : load_(std::move(load)), watch_(path) {}
 
     // What became of a change, once.
     std::optional<Loaded> poll(double now_s);
     [[nodiscard]] bool loading() const { return loading_.valid(); }
 
   private:
-    std::filesystem::path path_;
+    LoadScene load_;
     FileWatch watch_;
     std::future<Loaded> loading_;
 };

@@ -14,7 +14,6 @@
 #include "gl/debug_output.h"
 #include "viewer/display.h"
 #include "viewer/frame_clock.h"
-#include "viewer/hot_reload.h"
 #include "viewer/panels.h"
 #include "viewer/screenshot.h"
 #include "viewer/state_commands.h"
@@ -254,6 +253,9 @@ class Viewer {
     void take_reloaded(double now) {
         std::optional<SceneReloader::Loaded> reloaded = reloader_.poll(now);
         if (!reloaded) {
+            if (reloader_.loading() && message_.empty()) {
+                say("the file has changed; loading it", now);
+            }
             return;
         }
         redraws_ = k_redraws;
@@ -307,8 +309,8 @@ class Viewer {
 }  // namespace
 
 void run_viewer(const ViewerOptions& options) {
-    SceneReloader reloader(options.scene);
-    scene::LoadResult loaded = scene::load_gltf(options.scene);
+    SceneReloader reloader(options.scene, options.load);
+    scene::LoadResult loaded = options.load();
     for (const std::string& warning : loaded.warnings) {
         log::warning("{}", warning);
     }

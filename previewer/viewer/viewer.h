@@ -2,16 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "renderer/settings.h"
+#include "viewer/hot_reload.h"
 #include "viewer/stage.h"
 
 namespace bounce::viewer {
 
 struct ViewerOptions {
-    std::filesystem::path scene;
+    std::filesystem::path scene;  // the file that is watched for changes
+    LoadScene load;               // reads it
     // Given the scene: what to render at first; width and height are the window's. Throws usage_error.
     std::function<Settings(const scene::Scene&)> choose_settings;
     ChooseAnimation choose_animation;
