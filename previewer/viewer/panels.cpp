@@ -94,7 +94,7 @@ void line_of_text(const char* name, const std::string& text, const ImVec4& color
         return;
     }
     const ImVec2 room = ImGui::GetIO().DisplaySize;
-    const float wrap = std::min(30.0F * ImGui::GetFontSize(), room.x - 4.0F * margin);
+    const float wrap = std::min(36.0F * ImGui::GetFontSize(), room.x - 4.0F * margin);
     ImGui::SetNextWindowPos({room.x - margin, top}, ImGuiCond_Always, {1.0F, 0.0F});
     if (ImGui::Begin(name, nullptr, k_fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
         ImGui::PushTextWrapPos(wrap);

@@ -11,7 +11,7 @@
 namespace bounce::viewer {
 namespace {
 
-// A slider on whole numbers that a change of order of magnitude crosses quickly.
+// The slider's end; --rsm-samples takes more.
 constexpr int k_most_samples = 4096;
 
 // A drop-down list of sizes; true where another was chosen.

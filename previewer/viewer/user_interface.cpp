@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -73,10 +74,11 @@ void set_style(float scale) {
     style.ItemInnerSpacing = {6.0F, 4.0F};
     style.ScrollbarSize = 11.0F;
     style.IndentSpacing = 12.0F;
+    style.GrabMinSize = 8.0F;
 
     const ImVec4 accent{0.93F, 0.55F, 0.22F, 1.0F};
     // A slider's number stays readable under its handle.
-    const ImVec4 handle{0.93F, 0.55F, 0.22F, 0.75F};
+    const ImVec4 handle{0.93F, 0.55F, 0.22F, 0.6F};
     ImVec4* colors = static_cast<ImVec4*>(style.Colors);
     colors[ImGuiCol_WindowBg] = grey(0.09F, 0.90F);
     colors[ImGuiCol_PopupBg] = grey(0.11F, 0.98F);

@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import time
+from pathlib import Path
 
 TOOLS = {"Xvfb": "xvfb", "xdotool": "xdotool", "import": "imagemagick", "convert": "imagemagick"}
 # Without a GPU, next to other work, a frame may take seconds.
@@ -68,7 +69,7 @@ class Picture:
 
 
 class Viewer:
-    WIDTH, HEIGHT = 480, 360
+    WIDTH, HEIGHT = 480, 360  # at first
 
     def __init__(self, bounce, scene, folder, *options):
         self.process = subprocess.Popen(
@@ -82,7 +83,7 @@ class Viewer:
     def _focus_window(self):
         assert self.process.poll() is None, f"the viewer ended: {self.process.stderr.read()}"
         # Fails until the window is there, and on the screen.
-        chain = ["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid), "windowfocus", "--sync"]
+        chain = ["xdotool", "search", "--onlyvisible", "--name", "Bounce", "windowfocus", "--sync"]
         done = subprocess.run(chain, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return done.returncode == 0
 
@@ -131,6 +132,16 @@ class Viewer:
         self.wait_for(f"an answer to {' '.join(keys)}", lambda: self.shot().difference(before) > 0.01)
         return self.settled()
 
+    def resize(self, width, height):
+        self.WIDTH, self.HEIGHT = width, height
+        self.xdotool("search", "--onlyvisible", "--name", "Bounce", "windowsize", width, height)
+
+    def processor_seconds(self):
+        """Time that all its threads have worked."""
+        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
+        user, system = fields[11:13]  # fields 14 and 15, counted from 1, in proc(5)
+        return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
     def drag(self, across, down, *held):
         before = self.shot()
         for key in held:
@@ -167,10 +178,9 @@ class Viewer:
             self.process.wait()
 
 
-def rendered(bounce, scene, folder, *options):
+def rendered(bounce, scene, folder, *options, width=Viewer.WIDTH, height=Viewer.HEIGHT):
     """The same picture as bounce render writes it."""
     path = folder / "expected.png"
-    size = f"{Viewer.WIDTH}x{Viewer.HEIGHT}"
-    subprocess.run([bounce, "render", str(scene), "--size", size, "-o", str(path), *options], check=True,
-                   stderr=subprocess.DEVNULL)
-    return Picture.read(path, Viewer.WIDTH, Viewer.HEIGHT)
+    subprocess.run([bounce, "render", str(scene), "--size", f"{width}x{height}", "-o", str(path), *options],
+                   check=True, stderr=subprocess.DEVNULL)
+    return Picture.read(path, width, height)

@@ -19,6 +19,11 @@ def check_keys(bounce, scene, folder):
         assert shaded.mean() > 20.0, "the picture is nearly black"
         assert shaded.same_as(rendered(bounce, scene, folder)), "the window differs from bounce render's PNG"
 
+        before = viewer.processor_seconds()
+        time.sleep(2.0)
+        worked = viewer.processor_seconds() - before
+        assert worked < 0.1, f"{worked} s of work in 2 s in which nothing happened"
+
         flux = viewer.after_keys("7")
         assert flux.same_as(rendered(bounce, scene, folder, "--show", "rsm-flux"))
         indirect = viewer.after_keys("3")
@@ -52,6 +57,10 @@ def check_keys(bounce, scene, folder):
         assert helped.difference(shaded) > 5.0, "no help is seen"
         viewer.keys("F1")
         viewer.becomes("the picture without help", shaded)
+
+        viewer.resize(360, 300)
+        viewer.becomes("the picture at the window's new size",
+                       rendered(bounce, scene, folder, width=360, height=300))
         viewer.quit("Escape")
     finally:
         viewer.end()
