@@ -31,7 +31,8 @@ ExitCode view(const Arguments& arguments) {
         .scene = arguments.scene,
         .load = [&] { return load(arguments); },
         .choose_settings = [&](const scene::Scene& scene) { return arguments.render.settings(scene); },
-        .choose_animation = [&](const scene::Scene& scene) { return arguments.render.animation_index(scene); },
+        .choose_animation =
+            [&](const scene::Scene& scene) { return arguments.render.animation_index(scene); },
         .camera = arguments.render.camera,
         .frame = arguments.frame,
     });
@@ -43,11 +44,16 @@ ExitCode view(const Arguments& arguments) {
 void add_view(CLI::App& app, Run& run) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("view", "Look at a scene in a window; F1 lists the keys");
-    command->add_option("scene", arguments->scene, "Scene: .glb, .gltf or .blend; shown again whenever it is saved")->required();
-    command->add_option("--frame", arguments->frame, "Blender frame number to begin at; the first by default");
+    command
+        ->add_option("scene", arguments->scene,
+                     "Scene: .glb, .gltf or .blend; shown again whenever it is saved")
+        ->required();
+    command->add_option("--frame", arguments->frame,
+                        "Blender frame number to begin at; the first by default");
     arguments->render.add_to(*command);
     add_scene_source_options(*command, arguments->source);
-    command->get_option("--size")->description("Size of the window, such as 1280x720; the scene's own by default");
+    command->get_option("--size")->description(
+        "Size of the window, such as 1280x720; the scene's own by default");
     command->callback([arguments, &run] { run = [arguments] { return view(*arguments); }; });
 }
 

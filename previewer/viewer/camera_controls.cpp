@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -82,7 +83,8 @@ void CameraControls::scale_orthographic(double factor) {
 void CameraControls::zoom(double steps) {
     const double factor = std::pow(k_zoom_a_step, steps);
     if (lens_.camera.perspective) {
-        distance_ = std::clamp(distance_ * factor, k_nearest_radii * scene_radius_, k_farthest_radii * scene_radius_);
+        distance_ =
+            std::clamp(distance_ * factor, k_nearest_radii * scene_radius_, k_farthest_radii * scene_radius_);
     } else {
         scale_orthographic(factor);
     }

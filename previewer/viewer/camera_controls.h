@@ -15,7 +15,8 @@ class CameraControls {
     // The pivot is the point on the view's axis nearest the scene's centre, in front of the camera.
     CameraControls(const CameraView& view, const scene::Bounds& bounds);
 
-    // Turns about the upright axis and tilts, up to straight down and straight up; the horizon keeps its roll.
+    // Turns about the upright axis and tilts, up to straight down and straight up; the horizon keeps its
+    // roll.
     void orbit(double right, double down);
     // Moves with what lies at the pivot's distance.
     void pan(double right, double down, int width, int height);

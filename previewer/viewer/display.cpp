@@ -26,7 +26,8 @@ Display::Display() {
 
 void Display::bind_lattice(const ViewTransform& view) {
     const bool same = lattice_view_ && lattice_view_->display_device == view.display_device &&
-                      lattice_view_->view_transform == view.view_transform && lattice_view_->look == view.look;
+                      lattice_view_->view_transform == view.view_transform &&
+                      lattice_view_->look == view.look;
     if (!same) {
         const std::vector<float> nodes = bake_lattice(view);
         lattice_ = gl::Texture("view transform", {.format = GL_RGBA16F,

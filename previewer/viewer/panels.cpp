@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/panels.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
-
-#include <algorithm>
 
 #include "viewer/picture_panels.h"
 
 namespace bounce::viewer {
 namespace {
 
-constexpr ImGuiWindowFlags k_fixed =
-    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags k_fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 // Pixels on a screen of ordinary density.
 constexpr float k_side_width = 292.0F;
 constexpr float k_margin = 10.0F;
 
-void side_panel(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, float bottom, PanelResult& result) {
+void side_panel(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, float bottom,
+                PanelResult& result) {
     const float scale = facts.content_scale;
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float margin = k_margin * scale;
@@ -28,9 +29,9 @@ void side_panel(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts,
     if (ImGui::Begin("side", nullptr, k_fixed | ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushItemWidth(width * 0.52F);
         ImGui::TextUnformatted(facts.stage.scene().name.c_str());
-        const std::string cost = facts.frame_ms > 0.0
-                                     ? fmt::format("{:.1f} ms, {:.1f} fps", facts.frame_ms, 1000.0 / facts.frame_ms)
-                                     : std::string("not measured yet");
+        const std::string cost = facts.frame_ms > 0.0 ? fmt::format("{:.1f} ms, {:.1f} fps", facts.frame_ms,
+                                                                    1000.0 / facts.frame_ms)
+                                                      : std::string("not measured yet");
         ImGui::TextDisabled("%d x %d   %s", state.settings.width, state.settings.height, cost.c_str());
         ImGui::Separator();
         view_section(state, viewpoint, facts, result);
@@ -64,7 +65,8 @@ float timeline(Playback& playback, const PanelFacts& facts, PanelResult& result)
         bool every = playback.pace() == Pace::every_frame;
         const std::string rate = fmt::format("{:g} fps", range.fps);
         const float right = ImGui::CalcTextSize("loopevery frame").x + ImGui::CalcTextSize(rate.c_str()).x +
-                            2.0F * ImGui::GetFrameHeight() + 2.0F * style.ItemInnerSpacing.x + 3.0F * style.ItemSpacing.x;
+                            2.0F * ImGui::GetFrameHeight() + 2.0F * style.ItemInnerSpacing.x +
+                            3.0F * style.ItemSpacing.x;
         ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - right, 4.0F * button));
         int frame = playback.frame();
         if (ImGui::SliderInt("##frame", &frame, range.start, playback.last_frame(), "frame %d",
@@ -96,7 +98,8 @@ void line_of_text(const char* name, const std::string& text, const ImVec4& color
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float wrap = std::min(36.0F * ImGui::GetFontSize(), room.x - 4.0F * margin);
     ImGui::SetNextWindowPos({room.x - margin, top}, ImGuiCond_Always, {1.0F, 0.0F});
-    if (ImGui::Begin(name, nullptr, k_fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+    if (ImGui::Begin(name, nullptr,
+                     k_fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
         ImGui::PushTextWrapPos(wrap);
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         ImGui::TextUnformatted(text.c_str());

@@ -36,6 +36,7 @@ struct PanelResult {
     std::vector<Command> commands;
 };
 
-[[nodiscard]] PanelResult draw_panels(ViewState& state, Viewpoint& viewpoint, Playback& playback, const PanelFacts& facts);
+[[nodiscard]] PanelResult draw_panels(ViewState& state, Viewpoint& viewpoint, Playback& playback,
+                                      const PanelFacts& facts);
 
 }  // namespace bounce::viewer

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/picture_panels.h"
 
-#include <fmt/format.h>
-#include <imgui.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
 
 namespace bounce::viewer {
 namespace {
@@ -62,7 +62,7 @@ void choose_light(Settings& settings, const PanelFacts& facts, PanelResult& resu
 void choose_camera(Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
     const Stage& stage = facts.stage;
     const int looking = viewpoint.node();
-    const std::string current = viewpoint.is_free()         ? "free"
+    const std::string current = viewpoint.is_free()        ? "free"
                                 : looking == scene::k_none ? "the whole scene"
                                                            : stage.camera_name(looking);
     if (ImGui::BeginCombo("camera", current.c_str())) {
@@ -92,8 +92,9 @@ void bullet(const std::string& text) {
 }  // namespace
 
 void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
-    constexpr std::array<const char*, 8> shows = {"shaded",       "direct light", "indirect light", "RSM depth",
-                                                  "RSM position", "RSM normal",   "RSM flux",       "interpolation"};
+    constexpr std::array<const char*, 8> shows = {"shaded",    "direct light", "indirect light",
+                                                  "RSM depth", "RSM position", "RSM normal",
+                                                  "RSM flux",  "interpolation"};
     result.picture_changed |= choose("show", shows, state.settings.show);
     if (shows_rsm_layer(state.settings.show)) {
         choose_light(state.settings, facts, result);

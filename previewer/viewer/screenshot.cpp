@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/screenshot.h"
 
-#include <fmt/format.h>
-
 #include <string>
+
+#include <fmt/format.h>
 
 #include "image/image_io.h"
 
@@ -18,9 +18,8 @@ std::filesystem::path save_screenshot(const std::filesystem::path& folder, const
         png = folder / fmt::format("{}-{}.png", name, copy);
         exr = folder / fmt::format("{}-{}.exr", name, copy);
     }
-    const ImageAttributes attributes = {{"Software", "bounce"},
-                                        {"bounce:scene", stem},
-                                        {"bounce:frame", std::to_string(frame)}};
+    const ImageAttributes attributes = {
+        {"Software", "bounce"}, {"bounce:scene", stem}, {"bounce:frame", std::to_string(frame)}};
     write_image(exr, image, attributes);
     write_image(png, to_display(image, view), attributes);
     return png;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/stage.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace bounce::viewer {
 
@@ -13,7 +13,8 @@ Stage::Stage(scene::LoadResult loaded, const ChooseAnimation& choose_animation)
       animation_(choose_animation(loaded_.scene)),
       pose_(scene::evaluate_pose(loaded_.scene, 0.0, animation_)),
       renderer_(loaded_.scene) {
-    std::copy_if(scene().topological_order.begin(), scene().topological_order.end(), std::back_inserter(cameras_),
+    std::copy_if(scene().topological_order.begin(), scene().topological_order.end(),
+                 std::back_inserter(cameras_),
                  [&](int node) { return scene().nodes[static_cast<size_t>(node)].camera != scene::k_none; });
 }
 

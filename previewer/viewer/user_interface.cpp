@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/user_interface.h"
 
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +11,10 @@
 #include <string>
 #include <system_error>
 
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
 namespace bounce::viewer {
 namespace {
 
@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 // the data folders of the XDG base directory specification.
 std::optional<fs::path> find_font() {
     const char* variable = std::getenv("XDG_DATA_DIRS");
-    std::istringstream folders(variable != nullptr && *variable != '\0' ? variable : "/usr/local/share:/usr/share");
+    std::istringstream folders(variable != nullptr && *variable != '\0' ? variable
+                                                                        : "/usr/local/share:/usr/share");
     std::string folder;
     while (std::getline(folders, folder, ':')) {
         for (const char* place : {"truetype/dejavu", "dejavu-sans-fonts", "dejavu", "TTF"}) {
@@ -48,7 +49,8 @@ void add_font(float scale) {
         config.OversampleH = 3;
         config.OversampleV = 1;
         config.PixelSnapH = false;
-        if (io.Fonts->AddFontFromFileTTF(file->c_str(), std::round(size * scale), &config, ranges.data()) != nullptr) {
+        if (io.Fonts->AddFontFromFileTTF(file->c_str(), std::round(size * scale), &config, ranges.data()) !=
+            nullptr) {
             return;
         }
     }

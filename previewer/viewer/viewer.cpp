@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/viewer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <new>
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/log.h"
@@ -36,7 +37,8 @@ double seconds_now() {
 
 class Viewer {
   public:
-    Viewer(const ViewerOptions& options, SceneReloader& reloader, scene::LoadResult loaded, const Settings& settings)
+    Viewer(const ViewerOptions& options, SceneReloader& reloader, scene::LoadResult loaded,
+           const Settings& settings)
         : options_(options),
           reloader_(reloader),
           window_(fmt::format("{} - Bounce", loaded.scene.name), {settings.width, settings.height}),
@@ -49,7 +51,8 @@ class Viewer {
         playback_.seek(options.frame.value_or(playback_.frame()), seconds_now());
         if (!options.camera.empty()) {
             // Refuses a name that is not there with the sentence that bounce render has.
-            (void)scene_camera(stage_->scene(), stage_->pose(), options.camera, settings.width, settings.height);
+            (void)scene_camera(stage_->scene(), stage_->pose(), options.camera, settings.width,
+                               settings.height);
             viewpoint_.look_through(stage_->find_camera(options.camera));
         }
     }
@@ -78,15 +81,10 @@ class Viewer {
             const double next = playback_.playing() ? playback_.seconds_to_next(seconds_now()) : k_idle_s;
             window_.wait(std::min(next, k_idle_s));
         }
-        Input now = window_.take_input();
-        if (now.any) {
-            redraws_ = k_redraws;
+        input_ = window_.take_input();
+        if (input_.any) {
+            redraws_ = k_redraws;  // so draw() answers it
         }
-        std::move(now.commands.begin(), now.commands.end(), std::back_inserter(input_.commands));
-        input_.drag = now.drag;
-        input_.drag_began |= now.drag_began;
-        input_.moved += now.moved;
-        input_.scrolled += now.scrolled;
     }
 
     // Everything of one turn that ends in a new content of the window.
@@ -95,7 +93,6 @@ class Viewer {
         if (room.x < 1 || room.y < 1) {  // minimised: nothing to see, so nothing to do until that changes
             redraws_ = 0;
             picture_changed_ = false;
-            input_ = {};
             window_.wait(k_idle_s);
             return;
         }
@@ -122,7 +119,7 @@ class Viewer {
     }
 
     void answer_input(double now) {
-        Input input = std::exchange(input_, Input{});
+        const Input input = std::exchange(input_, Input{});
         if (input.drag_began) {
             drag_is_panels_ = interface_.wants_mouse();
         }
@@ -207,7 +204,8 @@ class Viewer {
         }
         try {
             const auto path = save_screenshot(std::filesystem::current_path(), options_.scene.stem().string(),
-                                              playback_.frame(), stage_->renderer().read_color(), shown_view(state_, stage_->pose().view));
+                                              playback_.frame(), stage_->renderer().read_color(),
+                                              shown_view(state_, stage_->pose().view));
             say(fmt::format("saved {} and its .exr", path.string()), now);
             log::info("saved {} and its .exr", path.string());
         } catch (const Error& error) {
@@ -266,11 +264,15 @@ class Viewer {
         try {
             auto stage = std::make_unique<Stage>(std::get<scene::LoadResult>(std::move(*reloaded)),
                                                  options_.choose_animation);
+            gl::throw_on_debug_error("uploading the changed scene");
             viewpoint_.move_to(*stage_, *stage);
             playback_.set_range(stage->scene().frames);
             stage_ = std::move(stage);
         } catch (const Error& error) {
             refuse_reloaded(error.what());
+            return;
+        } catch (const std::bad_alloc&) {
+            refuse_reloaded("there is not enough memory for it beside the one on show");
             return;
         }
         problem_.clear();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/window.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <glm/common.hpp>
 #include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -61,7 +61,9 @@ struct Window::Library {
 };
 
 struct Window::Callbacks {
-    static Window& window_of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
+    static Window& window_of(GLFWwindow* handle) {
+        return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
+    }
 
     static void key(GLFWwindow* handle, int key, int /*scancode*/, int action, int modifiers) {
         Window& window = window_of(handle);
@@ -115,7 +117,9 @@ struct Window::Callbacks {
         window.input_.scrolled += y;
     }
 
-    static void resized(GLFWwindow* handle, int /*width*/, int /*height*/) { window_of(handle).input_.any = true; }
+    static void resized(GLFWwindow* handle, int /*width*/, int /*height*/) {
+        window_of(handle).input_.any = true;
+    }
     static void exposed(GLFWwindow* handle) { window_of(handle).input_.any = true; }
     static void focus(GLFWwindow* handle, int /*focused*/) { window_of(handle).input_.any = true; }
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/camera_controls.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <vector>
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <vector>
+#include <gtest/gtest.h>
 
 namespace bounce::viewer {
 namespace {
@@ -186,7 +186,8 @@ TEST(CameraControls, FrameAllShowsTheWholeScene) {
 
 TEST(CameraControls, FrameAllHoldsForBlendersLens) {
     const scene::Bounds bounds = cube({0.0, 0.0, 0.0}, 2.0);
-    for (const auto fit : {scene::SensorFit::automatic, scene::SensorFit::horizontal, scene::SensorFit::vertical}) {
+    for (const auto fit :
+         {scene::SensorFit::automatic, scene::SensorFit::horizontal, scene::SensorFit::vertical}) {
         CameraView view = looking({3.0, 2.0, 5.0}, {0.0, 0.0, 0.0});
         view.camera.sensor = scene::Sensor{.fit = fit, .shift_x = 0.4F, .shift_y = -0.2F};
         CameraControls controls(view, bounds);

@@ -3,13 +3,14 @@
 // What the window shows is what image files hold: the display program against to_display().
 #include "viewer/display.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "gl/context.h"
 #include "gl/framebuffer.h"
@@ -65,7 +66,8 @@ Image displayed(const gl::Texture& color, const ViewTransform& view, int width, 
     const auto row = static_cast<size_t>(width);
     const auto rows = static_cast<size_t>(height);
     std::vector<float> rgba(row * rows * 4);
-    glGetTextureImage(target.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)), rgba.data());
+    glGetTextureImage(target.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)),
+                      rgba.data());
     Image image(width, height);
     for (size_t y = 0; y < rows; ++y) {
         for (size_t x = 0; x < row; ++x) {
@@ -101,7 +103,8 @@ TEST_F(DisplayTest, StandardIsExact) {
     const Image image = colors();
     const gl::Texture texture = upload(image);
     for (const ViewTransform& view : {ViewTransform{}, ViewTransform{.exposure = -1.5F, .gamma = 1.4F}}) {
-        const Difference found = difference(displayed(texture, view, k_width, k_height), to_display(image, view));
+        const Difference found =
+            difference(displayed(texture, view, k_width, k_height), to_display(image, view));
         // pow() of a GPU and of the C library differ in the last bits; a few thousandths of an 8-bit step
         // are far above that and far below what can be seen.
         EXPECT_LT(found.largest * 255.0F, 4e-3F);
@@ -136,6 +139,11 @@ struct Case {
     float largest;
 };
 
+// Else GoogleTest prints, and names the test by, the bytes of its pointers.
+void PrintTo(const Case& one, std::ostream* out) {
+    *out << one.name;
+}
+
 class ViewTransformTest : public DisplayTest, public testing::WithParamInterface<Case> {};
 
 TEST_P(ViewTransformTest, DiffersLittleFromWhatFilesHold) {
@@ -144,7 +152,8 @@ TEST_P(ViewTransformTest, DiffersLittleFromWhatFilesHold) {
     }
     const auto& [name, view, largest] = GetParam();
     const Image image = colors();
-    const Difference found = difference(displayed(upload(image), view, k_width, k_height), to_display(image, view));
+    const Difference found =
+        difference(displayed(upload(image), view, k_width, k_height), to_display(image, view));
     EXPECT_LT(found.largest * 255.0F, largest);
     // Pictures as a whole are far nearer; the largest errors sit in the few cells where a channel is cut
     // off at 0 or 1, which a lattice rounds.
@@ -155,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
     Blender, ViewTransformTest,
     testing::Values(Case{"Filmic", {.view_transform = "Filmic"}, 2.0F},
                     Case{"FilmicContrast",
-                         {.view_transform = "Filmic", .look = "Very High Contrast", .exposure = 1.0F}, 2.0F},
+                         {.view_transform = "Filmic", .look = "Very High Contrast", .exposure = 1.0F},
+                         2.0F},
                     // Gamma steepens the curve at black, and its errors with it.
                     Case{"FilmicGamma", {.view_transform = "Filmic", .gamma = 1.8F}, 4.0F},
                     Case{"FilmicLog", {.view_transform = "Filmic Log"}, 2.0F},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/hot_reload.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include "temporary_folder.h"
 
@@ -45,8 +45,8 @@ TEST(FileWatch, SeesAChangeOfTimeAlone) {
     const test::TemporaryFolder folder;
     write(folder / "a", "one");
     FileWatch watch(folder / "a");
-    std::filesystem::last_write_time(folder / "a",
-                                     std::filesystem::last_write_time(folder / "a") + std::chrono::seconds(1));
+    std::filesystem::last_write_time(
+        folder / "a", std::filesystem::last_write_time(folder / "a") + std::chrono::seconds(1));
     EXPECT_FALSE(watch.changed(0.0));
     EXPECT_TRUE(watch.changed(1.0));
 }
