@@ -375,8 +375,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(LoaderRefusal, OddButUsableFilesLoad) {
     GltfBuilder builder = valid_file();
-    builder.root["nodes"][0]["matrix"] = std::vector<float>(16, 0.0F);  // singular
-    builder.root["nodes"][1]["scale"] = {1e-40, 1e-40, 1e-40};          // denormal
+    builder.root["nodes"][0]["name"] = std::string(1000, '[') + "\\\"";  // no nesting
+    builder.root["nodes"][0]["matrix"] = std::vector<float>(16, 0.0F);   // singular
+    builder.root["nodes"][1]["scale"] = {1e-40, 1e-40, 1e-40};           // denormal
     EXPECT_EQ(builder.refusal(), "");
 }
 
