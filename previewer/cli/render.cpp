@@ -11,6 +11,7 @@
 #include "cli/scene_source.h"
 #include "cli/stats.h"
 #include "core/atomic_file.h"
+#include "core/interrupt.h"
 #include "core/log.h"
 #include "core/progress.h"
 #include "gl/context.h"
@@ -100,7 +101,10 @@ ExitCode render(const Arguments& arguments) {
     const FrameWriter writer(scene, settings);
     StatsFile stats(arguments.scene, device, settings, arguments.render);
     Progress progress("render", static_cast<int>(frames.size()));
+    const InterruptGuard interrupts;
+    int written = 0;
     for (const int frame : frames) {
+        interrupts.throw_if_interrupted(fmt::format("{} of {} frames are written", written, frames.size()));
         const double time_s = scene::time_of_frame(scene.frames, frame);
         const scene::Pose pose = scene::evaluate_pose(scene, time_s, animation);
         const CameraView camera =
@@ -112,6 +116,7 @@ ExitCode render(const Arguments& arguments) {
         for (const std::string& output : arguments.outputs) {
             writer.write(frame_path(output, frame), image, pose.view, frame);
         }
+        ++written;
         progress.step(fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
         if (frame == frames.front()) {
             for (const std::string& approximation : measured.report.approximations) {

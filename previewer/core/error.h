@@ -14,6 +14,8 @@ enum class ExitCode : int {
     input_refused = 3,
     no_opengl = 4,
     above_threshold = 5,
+    interrupted = 130,  // 128 + SIGINT, as shells report it
+    terminated = 143,   // 128 + SIGTERM
 };
 
 // A failure the user can do something about. The message is one sentence: what, where, what to do.

@@ -63,7 +63,9 @@ vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
     vec3 h = safe_normalize(l + v, s.normal);
     float n_dot_h = clamp(dot(s.normal, h), 0.0, 1.0);
     float h_dot_v = clamp(dot(h, v), 0.0, 1.0);
-    float t = 1.0 + n_dot_h * n_dot_h * (alpha2 - 1.0);
+    // 1 - (n.h)^2 as a cross product: the difference would have no digits left where a highlight is narrow.
+    vec3 n_cross_h = cross(s.normal, h);
+    float t = n_dot_h * n_dot_h * alpha2 + dot(n_cross_h, n_cross_h);
     float distribution = alpha2 / (PI * max(t * t, 1e-20));
     float lambda_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2);
     float lambda_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);

@@ -36,24 +36,18 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 #endif
 #ifdef ANY_TEXTURE
-layout(location = 3) in vec4 in_uv;
+// Transformed by the vertex shader (passes/geometry.vert).
+layout(location = 3) in vec4 in_uv_base_mr;
+layout(location = 6) in vec4 in_uv_normal_emission;
 #endif
 #ifdef VERTEX_COLOR
 layout(location = 4) in vec4 in_color;
 #endif
 
-#ifdef ANY_TEXTURE
-vec2 texture_uv(GpuMaterial m, int slot) {
-    vec4 row = m.uv[2 * slot];
-    vec3 uv = vec3(row.w > 0.5 ? in_uv.zw : in_uv.xy, 1.0);
-    return vec2(dot(row.xyz, uv), dot(m.uv[2 * slot + 1].xyz, uv));
-}
-#endif
-
 vec4 material_base_color(GpuMaterial m) {
     vec4 color = m.base_color;
 #ifdef BASE_COLOR_TEXTURE
-    color *= texture(base_color_texture, texture_uv(m, TEX_BASE_COLOR));
+    color *= texture(base_color_texture, in_uv_base_mr.xy);
 #endif
 #ifdef VERTEX_COLOR
     color *= in_color;
@@ -78,13 +72,13 @@ Surface material_surface(out vec3 emission) {
     s.specular = m.surface.z;
     s.disney = m.flags.x == DIFFUSE_DISNEY;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-    vec4 mr = texture(metallic_roughness_texture, texture_uv(m, TEX_METALLIC_ROUGHNESS));
+    vec4 mr = texture(metallic_roughness_texture, in_uv_base_mr.zw);
     s.roughness *= mr.g;
     s.metallic *= mr.b;
 #endif
     vec3 normal = safe_normalize(in_normal, vec3(0.0, 0.0, 1.0));
 #ifdef NORMAL_TEXTURE
-    vec3 tangent_normal = texture(normal_texture, texture_uv(m, TEX_NORMAL)).xyz * 2.0 - 1.0;
+    vec3 tangent_normal = texture(normal_texture, in_uv_normal_emission.xy).xyz * 2.0 - 1.0;
     tangent_normal.xy *= m.surface.w;
     vec3 bitangent = cross(normal, in_tangent.xyz) * in_tangent.w;
     normal = safe_normalize(
@@ -95,7 +89,7 @@ Surface material_surface(out vec3 emission) {
 #ifdef EMISSION
     emission = m.emission.rgb;
 #ifdef EMISSION_TEXTURE
-    emission *= texture(emission_texture, texture_uv(m, TEX_EMISSION)).rgb;
+    emission *= texture(emission_texture, in_uv_normal_emission.zw).rgb;
 #endif
     if (m.flags.y == 1) {  // unlit: shown as it is, reflects nothing
         emission = s.base_color;

@@ -18,7 +18,19 @@ layout(std430, binding = SSBO_DRAWS) readonly buffer DrawBlock {
 #define ANY_TEXTURE
 layout(location = ATTRIB_UV0) in vec2 in_uv0;
 layout(location = ATTRIB_UV1) in vec2 in_uv1;
-layout(location = 3) out vec4 out_uv;
+layout(location = 3) out vec4 out_uv_base_mr;          // of the base colour and metallic-roughness textures
+layout(location = 6) out vec4 out_uv_normal_emission;  // of the normal and emission textures
+layout(std430, binding = SSBO_MATERIALS) readonly buffer MaterialBlock {
+    GpuMaterial materials[];
+};
+
+// Here and not for each pixel: a texture's level of detail comes from the pixel's neighbours, and those outside
+// the triangle (helper invocations) read zeros from a storage buffer on some drivers, so that the level jumps.
+vec2 texture_uv(int material, int slot) {
+    vec4 row = materials[material].uv[2 * slot];
+    vec3 uv = vec3(row.w > 0.5 ? in_uv1 : in_uv0, 1.0);
+    return vec2(dot(row.xyz, uv), dot(materials[material].uv[2 * slot + 1].xyz, uv));
+}
 #endif
 #ifndef DEPTH_ONLY
 layout(location = ATTRIB_NORMAL) in vec3 in_normal;
@@ -56,7 +68,8 @@ void main() {
 #endif
 #endif
 #ifdef ANY_TEXTURE
-    out_uv = vec4(in_uv0, in_uv1);
+    out_uv_base_mr = vec4(texture_uv(draw.ids.x, TEX_BASE_COLOR), texture_uv(draw.ids.x, TEX_METALLIC_ROUGHNESS));
+    out_uv_normal_emission = vec4(texture_uv(draw.ids.x, TEX_NORMAL), texture_uv(draw.ids.x, TEX_EMISSION));
 #endif
 #ifdef VERTEX_COLOR
     out_color = in_color;

@@ -9,7 +9,7 @@ layout(std430, binding = SSBO_MATERIALS) readonly buffer MaterialBlock {
 };
 layout(location = 0) flat in uint in_material;
 #ifdef BASE_COLOR_TEXTURE
-layout(location = 3) in vec4 in_uv;
+layout(location = 3) in vec4 in_uv_base_mr;
 layout(binding = TEX_BASE_COLOR) uniform sampler2D base_color_texture;
 #endif
 #ifdef VERTEX_COLOR
@@ -20,8 +20,7 @@ void main() {
     GpuMaterial m = materials[in_material];
     float alpha = m.base_color.a;
 #ifdef BASE_COLOR_TEXTURE
-    vec3 uv = vec3(m.uv[0].w > 0.5 ? in_uv.zw : in_uv.xy, 1.0);
-    alpha *= texture(base_color_texture, vec2(dot(m.uv[0].xyz, uv), dot(m.uv[1].xyz, uv))).a;
+    alpha *= texture(base_color_texture, in_uv_base_mr.xy).a;
 #endif
 #ifdef VERTEX_COLOR
     alpha *= in_color.a;
