@@ -35,6 +35,22 @@ CLI::IsMember one_of(const std::map<std::string, T>& names) {
     return CLI::IsMember(&names);
 }
 
+// The rsm- layers show one light's map: there must be such a light, and maps at all.
+void require_shown_map(const RenderOptions& options, const Settings& settings, const scene::Scene& scene) {
+    if (!options.show.starts_with("rsm-")) {
+        return;
+    }
+    if (settings.technique != Technique::rsm) {
+        throw usage_error(fmt::format("--show {} needs --technique rsm", options.show));
+    }
+    const auto lights = std::count_if(scene.topological_order.begin(), scene.topological_order.end(), [&](int node) {
+        return scene.nodes[static_cast<size_t>(node)].light != scene::k_none;
+    });
+    if (options.light >= lights) {
+        throw usage_error(fmt::format("--light is {}; {} has {} lights, counted from 0", options.light, scene.name, lights));
+    }
+}
+
 // One dispatch gathers them all; llvmpipe ends a loop after 65,535 iterations.
 constexpr int k_most_samples = 1 << 15;
 
@@ -84,6 +100,7 @@ Settings RenderOptions::settings(const scene::Scene& scene) const {
     out.lowres_step = lowres;
     out.rsm_size = rsm_size;
     out.shadow_size = shadow_size;
+    require_shown_map(*this, out, scene);
     if (samples == "all") {
         out.rsm_full_sum = true;
         return out;

@@ -111,4 +111,5 @@ def test_an_output_without_a_format(render, scene, tmp_path):
 
 def test_show_of_a_light_that_is_not_there(render, scene, tmp_path):
     refused(render(scene, "-o", "a.png", "--show", "rsm-flux", "--light", "7"), "--light")
+    refused(render(scene, "-o", "a.png", "--show", "rsm-flux", "--technique", "direct"), "--technique")
     assert not (tmp_path / "a.png").exists()
