@@ -81,7 +81,7 @@ void StatsFile::write(const std::filesystem::path& path) const {
     out["left_out"] = left_out_json(last.left_out);
     out["approximations"] = last.approximations;
     out["counts"] = {{"triangles", last.triangles}, {"vpls", last.rsm_samples}, {"points", 0}, {"lights", last.lights}};
-    out["memory"] = {{"gl_peak_bytes", gl::allocated_bytes()}, {"rss_peak_bytes", peak_resident_bytes()}};
+    out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()}, {"rss_peak_bytes", peak_resident_bytes()}};
     write_text_file(path, out.dump(2) + "\n");
 }
 

@@ -8,32 +8,32 @@ namespace bounce {
 
 gl::Texture TransientPool::acquire_texture(const std::string& name, const gl::TextureDesc& desc) {
     const auto found = std::find_if(textures_.begin(), textures_.end(),
-                                    [&](const gl::Texture& texture) { return texture.desc() == desc; });
+                                    [&](const auto& idle) { return idle.resource.desc() == desc; });
     if (found == textures_.end()) {
         return {name, desc};
     }
-    gl::Texture texture = std::move(*found);
+    gl::Texture texture = std::move(found->resource);
     textures_.erase(found);
     return texture;
 }
 
 void TransientPool::release(gl::Texture texture) {
-    textures_.push_back(std::move(texture));
+    textures_.push_back({std::move(texture), frame_});
 }
 
 gl::Buffer TransientPool::acquire_buffer(const std::string& name, size_t bytes) {
     const auto found = std::find_if(buffers_.begin(), buffers_.end(),
-                                    [&](const gl::Buffer& buffer) { return buffer.bytes() == bytes; });
+                                    [&](const auto& idle) { return idle.resource.bytes() == bytes; });
     if (found == buffers_.end()) {
         return {name, bytes, GL_DYNAMIC_STORAGE_BIT};
     }
-    gl::Buffer buffer = std::move(*found);
+    gl::Buffer buffer = std::move(found->resource);
     buffers_.erase(found);
     return buffer;
 }
 
 void TransientPool::release(gl::Buffer buffer) {
-    buffers_.push_back(std::move(buffer));
+    buffers_.push_back({std::move(buffer), frame_});
 }
 
 const gl::Framebuffer& TransientPool::framebuffer(const std::string& name,
@@ -51,6 +51,18 @@ const gl::Framebuffer& TransientPool::framebuffer(const std::string& name,
         found = framebuffers_.emplace(std::move(key), gl::Framebuffer(name, colors, depth)).first;
     }
     return found->second;
+}
+
+void TransientPool::end_frame() {
+    // Long enough to carry a picture that alternates between two settings.
+    constexpr int idle_frames = 4;
+    ++frame_;
+    const auto idle = [&](const auto& entry) { return frame_ - entry.since_frame > idle_frames; };
+    std::erase_if(buffers_, idle);
+    if (std::erase_if(textures_, idle) > 0) {
+        // A new texture may get a dead one's name: framebuffers are known by those.
+        framebuffers_.clear();
+    }
 }
 
 void TransientPool::clear() {

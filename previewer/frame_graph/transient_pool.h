@@ -20,16 +20,25 @@ class TransientPool {
     [[nodiscard]] gl::Buffer acquire_buffer(const std::string& name, size_t bytes);
     void release(gl::Buffer buffer);
 
-    // A framebuffer over these attachments, made once. Valid until clear().
+    // A framebuffer over these attachments, made once. Valid until end_frame() or clear().
     const gl::Framebuffer& framebuffer(const std::string& name, std::initializer_list<gl::Attachment> colors,
                                        gl::Attachment depth = {});
 
+    // Call between frames: drops what the last frames did not use, so that a change of settings does not keep
+    // the old sizes for ever.
+    void end_frame();
     // Drops everything; for a change of size.
     void clear();
 
   private:
-    std::vector<gl::Texture> textures_;
-    std::vector<gl::Buffer> buffers_;
+    template <typename T>
+    struct Idle {
+        T resource;
+        int since_frame = 0;
+    };
+    std::vector<Idle<gl::Texture>> textures_;
+    std::vector<Idle<gl::Buffer>> buffers_;
+    int frame_ = 0;
     std::map<std::vector<int>, gl::Framebuffer> framebuffers_;
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "gl/memory.h"
-
 namespace bounce::gl {
 
 Buffer::Buffer(const std::string& name, size_t bytes, GLbitfield flags, const void* data)
@@ -15,7 +13,7 @@ Buffer::Buffer(const std::string& name, size_t bytes, GLbitfield flags, const vo
     object_ = Object<delete_buffer>(id);
     glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes_), bytes == 0 ? nullptr : data, flags);
     glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(name.size()), name.data());
-    note_allocation(bytes_);
+    allocation_ = Allocation(bytes_);
 }
 
 void Buffer::update_bytes(const void* data, size_t bytes, size_t offset) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/memory.h"
 #include "gl/object.h"
 
 namespace bounce::gl {
@@ -48,6 +49,7 @@ class Buffer {
     void read_bytes(void* out, size_t bytes, size_t offset) const;
 
     Object<delete_buffer> object_;
+    Allocation allocation_;
     size_t bytes_ = 0;
 };
 

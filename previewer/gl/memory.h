@@ -5,9 +5,23 @@
 
 namespace bounce::gl {
 
-// Counts what we ask of the driver: the sum over everything ever allocated, which is the peak as long as
-// resources live for the whole run (transient textures are pooled). The driver's own overhead is not in it.
-void note_allocation(size_t bytes);
+// Counts what we ask of the driver for as long as it lives. The driver's own overhead is not in it.
+class Allocation {
+  public:
+    Allocation() = default;
+    explicit Allocation(size_t bytes);
+    ~Allocation();
+    Allocation(const Allocation&) = delete;
+    Allocation& operator=(const Allocation&) = delete;
+    Allocation(Allocation&& other) noexcept;
+    Allocation& operator=(Allocation&& other) noexcept;
+
+  private:
+    size_t bytes_ = 0;
+};
+
+// Alive now, and the most that was alive at once, in this process.
 [[nodiscard]] size_t allocated_bytes();
+[[nodiscard]] size_t peak_allocated_bytes();
 
 }  // namespace bounce::gl

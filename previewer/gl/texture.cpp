@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "gl/memory.h"
-
 namespace bounce::gl {
 
 size_t bytes_per_texel(GLenum format) {
@@ -53,7 +51,7 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
                   static_cast<size_t>(std::max(desc.height >> level, 1));
     }
-    note_allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
+    allocation_ = Allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
 }
 
 }  // namespace bounce::gl

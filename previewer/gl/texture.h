@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "gl/memory.h"
 #include "gl/object.h"
 
 namespace bounce::gl {
@@ -42,6 +43,7 @@ class Texture {
 
   private:
     Object<delete_texture> object_;
+    Allocation allocation_;
     TextureDesc desc_;
 };
 

@@ -129,6 +129,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
     }
+    pool_.end_frame();
     report.passes = timer.collect();
     return report;
 }
