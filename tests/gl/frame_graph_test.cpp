@@ -210,13 +210,15 @@ TEST_F(FrameGraphOnGl, AnOpenGlErrorIsThrownWithThePassesName) {
 TEST_F(FrameGraphOnGl, AFrameAfterAFailedOneDrawsWhole) {
     // The failed frame's textures go back to the pool; were they deleted, the framebuffers kept there would
     // stand for names that the next frame gets again.
+    GLuint id = 0;
     const auto frame = [&](bool fail) {
         FrameGraph graph(pool_);
         TextureHandle made;
         float seen = 0.0F;
         graph.add_pass("draw", [&](PassBuilder& builder) {
             made = builder.create_texture("target", k_desc);
-            return [made, fail](const PassResources& resources) {
+            return [made, fail, &id](const PassResources& resources) {
+                id = resources.texture(made).id();
                 const gl::Framebuffer& target = resources.framebuffer({{&resources.texture(made)}});
                 const std::array<float, 4> seven = {7.0F, 7.0F, 7.0F, 7.0F};
                 glClearNamedFramebufferfv(target.id(), GL_COLOR, 0, seven.data());
@@ -230,7 +232,10 @@ TEST_F(FrameGraphOnGl, AFrameAfterAFailedOneDrawsWhole) {
         return seen;
     };
     EXPECT_THROW(frame(true), Error);
+    const GLuint first = id;
+    EXPECT_EQ(glIsTexture(first), GL_TRUE);
     EXPECT_EQ(frame(false), 7.0F);
+    EXPECT_EQ(id, first);
 }
 
 TEST_F(FrameGraphOnGl, AFailedPassEndsItsTimer) {

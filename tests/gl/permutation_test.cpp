@@ -159,5 +159,14 @@ TEST_F(Permutations, ShadowMap) {
     }
 }
 
+TEST_F(Permutations, Display) {
+    for (const Defines& defines : subsets({"LATTICE"})) {
+        EXPECT_NO_THROW(Program("display",
+                                {{GL_VERTEX_SHADER, "passes/display.vert"}, {GL_FRAGMENT_SHADER, "passes/display.frag"}},
+                                defines))
+            << describe(defines);
+    }
+}
+
 }  // namespace
 }  // namespace bounce::gl
