@@ -42,7 +42,7 @@ ExitCode run_evaluate(EvaluateArguments arguments) {
             "--reference-spp: give an even number; the reference is two halves with different seeds");
     }
     std::tie(options.width, options.height) = parse_size(arguments.size);
-    options.bounce = executable_folder() / "bounce";
+    options.bounce = executable_path();
     options.command = this_command();
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");

@@ -106,8 +106,12 @@ std::optional<fs::path> find_program(std::string_view name) {
     return std::nullopt;
 }
 
+fs::path executable_path() {
+    return fs::read_symlink("/proc/self/exe");
+}
+
 fs::path executable_folder() {
-    return fs::read_symlink("/proc/self/exe").parent_path();
+    return executable_path().parent_path();
 }
 
 }  // namespace bounce

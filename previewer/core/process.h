@@ -25,7 +25,8 @@ ProcessResult run_process(const std::vector<std::string>& command,
 // The program's full path on $PATH, or nothing.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
-// Folder that holds the running executable.
+// The running executable, and the folder that holds it.
+std::filesystem::path executable_path();
 std::filesystem::path executable_folder();
 
 }  // namespace bounce

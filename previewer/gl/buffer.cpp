@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/buffer.h"
 
+#include "gl/label.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -12,7 +14,7 @@ Buffer::Buffer(const std::string& name, size_t bytes, GLbitfield flags, const vo
     glCreateBuffers(1, &id);
     object_ = Object<delete_buffer>(id);
     glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes_), bytes == 0 ? nullptr : data, flags);
-    glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(name.size()), name.data());
+    set_label(GL_BUFFER, id, name);
     allocation_ = Allocation(bytes_);
 }
 

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.h"
@@ -59,7 +60,8 @@ void throw_on_debug_error(std::string_view where) {
 }
 
 DebugGroup::DebugGroup(std::string_view name) {
-    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());
+    constexpr size_t longest = 255;  // drivers take 256 at least
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(std::min(name.size(), longest)), name.data());
 }
 
 DebugGroup::~DebugGroup() {

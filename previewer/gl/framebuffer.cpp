@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/framebuffer.h"
 
+#include "gl/label.h"
+
 #include <fmt/format.h>
 
 #include <vector>
@@ -36,7 +38,7 @@ Framebuffer::Framebuffer(const std::string& name, std::initializer_list<Attachme
     } else {
         glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(points.size()), points.data());
     }
-    glObjectLabel(GL_FRAMEBUFFER, id, static_cast<GLsizei>(name.size()), name.data());
+    set_label(GL_FRAMEBUFFER, id, name);
     const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         throw Error(ExitCode::failed,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/program.h"
 
+#include "gl/label.h"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -56,7 +58,7 @@ Program::Program(const std::string& name, const std::vector<Stage>& stages, cons
     for (const Shader& shader : shaders) {
         glDetachShader(id(), shader.id());
     }
-    glObjectLabel(GL_PROGRAM, id(), static_cast<GLsizei>(name.size()), name.data());
+    set_label(GL_PROGRAM, id(), name);
 }
 
 const Program& ProgramCache::compute(const std::string& path, const Defines& defines) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/texture.h"
 
+#include "gl/label.h"
+
 #include <algorithm>
 
 namespace bounce::gl {
@@ -14,6 +16,7 @@ size_t bytes_per_texel(GLenum format) {
         case GL_RGBA8:
         case GL_SRGB8_ALPHA8:
         case GL_R32F:
+        case GL_RG16:
         case GL_R32UI:
         case GL_DEPTH_COMPONENT32F:
             return 4;
@@ -44,7 +47,7 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         glTextureParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         glTextureParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
     }
-    glObjectLabel(GL_TEXTURE, id, static_cast<GLsizei>(name.size()), name.data());
+    set_label(GL_TEXTURE, id, name);
 
     size_t texels = 0;
     for (int level = 0; level < desc.levels; ++level) {

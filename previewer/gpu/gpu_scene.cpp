@@ -74,7 +74,7 @@ GpuDraw pack_draw(const glm::dmat4& m, int material) {
         draw.normal_from_model[row] = glm::vec4(
             glm::dvec4(sign * cofactor[0][row], sign * cofactor[1][row], sign * cofactor[2][row], 0.0));
     }
-    draw.ids = {material, 0, 0, 0};
+    draw.ids = {material, sign < 0.0 ? 1 : 0, 0, 0};
     return draw;
 }
 

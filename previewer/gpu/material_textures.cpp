@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <bit>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+
 #include "gl/context.h"
 
 namespace bounce::gpu {
@@ -40,6 +44,12 @@ gl::Object<delete_sampler> make_sampler(const scene::Sampler& sampler) {
 }
 
 gl::Texture upload(const scene::Image& image, bool color) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (std::max(image.width, image.height) > largest) {
+        throw input_error(fmt::format("the image {} is {} x {} pixels; this OpenGL takes {} a side: make it smaller",
+                                      image.name, image.width, image.height, largest));
+    }
     gl::TextureDesc desc;
     const bool wide = !image.rgba16.empty();
     desc.format = wide ? GL_RGBA16 : (color ? GL_SRGB8_ALPHA8 : GL_RGBA8);

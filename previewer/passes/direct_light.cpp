@@ -18,6 +18,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         if (context.scene.has_specular()) defines["SPECULAR"] = "1";
         if (shadow_map.valid()) {
             builder.read(shadow_map);
+            builder.read(gbuffer.geometric_normal);
             defines["SHADOW"] = "1";
         }
         return [context, gbuffer, light, shadow_map, out, defines](const PassResources& resources) {
@@ -27,6 +28,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
             bind_gbuffer(resources, gbuffer);
             if (shadow_map.valid()) {
                 resources.texture(shadow_map).bind(TEX_SHADOW);
+                resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
             }
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
             dispatch_2d(context.width, context.height);

@@ -14,23 +14,25 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
         out.depth = target("depth", GL_DEPTH_COMPONENT32F);
         out.base_color_roughness = target("base colour, roughness", GL_RGBA16F);
         out.normal_metallic_specular = target("normal, metallic, specular", GL_RGBA16);
+        out.geometric_normal = target("geometric normal", GL_RG16);
         if (context.scene.has_emission()) {
             out.emission = target("emission", GL_RGBA32F);
         }
         return [context, camera, out](const PassResources& resources) {
             const gl::Attachment color{&resources.texture(out.base_color_roughness)};
             const gl::Attachment normal{&resources.texture(out.normal_metallic_specular)};
+            const gl::Attachment geometric{&resources.texture(out.geometric_normal)};
             const gl::Attachment depth{&resources.texture(out.depth)};
             const bool emission = out.emission.valid();
             const gl::Framebuffer& framebuffer =
-                emission ? resources.framebuffer({color, normal, {&resources.texture(out.emission)}}, depth)
-                         : resources.framebuffer({color, normal}, depth);
+                emission ? resources.framebuffer({color, normal, geometric, {&resources.texture(out.emission)}}, depth)
+                         : resources.framebuffer({color, normal, geometric}, depth);
             framebuffer.bind();
             constexpr std::array<float, 4> black{};
             const float far_depth = 0.0F;
             glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far_depth);
             if (emission) {
-                glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 2, black.data());
+                glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 3, black.data());
             }
             draw_scene(context, camera, emission ? DrawKind::surface_with_emission : DrawKind::surface,
                        "passes/gbuffer.frag", {});

@@ -10,6 +10,7 @@ struct GBuffer {
     TextureHandle depth;
     TextureHandle base_color_roughness;
     TextureHandle normal_metallic_specular;
+    TextureHandle geometric_normal;
     TextureHandle emission;
 };
 

@@ -38,6 +38,22 @@ Window gltf_window(const scene::Camera& camera, double width, double height, dou
 
 }  // namespace
 
+CameraView tighten_orthographic_depth(const CameraView& view, const scene::Bounds& bounds) {
+    if (view.camera.perspective || bounds.empty()) {
+        return view;
+    }
+    const glm::dvec3 forward = -glm::normalize(glm::dvec3(view.world_from_camera[2]));
+    const glm::dvec3 eye(view.world_from_camera[3]);
+    const double middle = glm::dot(bounds.center() - eye, forward);
+    // Half the box's extent along the view, and a little room for rounding.
+    const double reach = 0.5 * glm::dot(bounds.high - bounds.low, glm::abs(forward)) + 0.01 * bounds.diagonal();
+    CameraView out = view;
+    out.camera.near_m = std::max(view.camera.near_m, static_cast<float>(middle - reach));
+    out.camera.far_m = std::min(view.camera.far_m, static_cast<float>(middle + reach));
+    // Nothing in view: any range will do, as long as it is one.
+    return out.camera.far_m > out.camera.near_m ? out : view;
+}
+
 CameraMatrices camera_matrices(const CameraView& view, int width, int height, const gpu::RenderSpace& space) {
     const scene::Camera& camera = view.camera;
     const Window w = camera.sensor ? blender_window(camera, *camera.sensor, width, height, view.pixel_aspect)

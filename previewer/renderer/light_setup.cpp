@@ -11,9 +11,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Near plane of a light's perspective maps, render space (the scene's diagonal is 1). Depth is reversed
-// float, so a small one costs no precision; what is nearer still is clamped, not lost.
-constexpr double k_near = 1e-4;
+// Near plane of a light's perspective maps, render space (the scene's diagonal is 1). Depth is near/z in a float,
+// whose digits are relative, so a near plane far below anything costs no precision, and a small light set-up
+// under a dome of kilometres keeps its shadows. What is nearer still is clamped, not lost.
+constexpr double k_near = 1e-9;
 
 // A perspective map's texels grow towards its rim with 1/cos^3: wider cones than this are drawn as cubes.
 constexpr double k_widest_planar_cone_rad = 120.0 * pi / 180.0;
@@ -221,7 +222,8 @@ std::vector<int> share_samples(const std::vector<double>& fluxes, int total) {
     const int least = std::max(total / (16 * std::max(static_cast<int>(fluxes.size()), 1)), 1);
     for (const double flux : fluxes) {
         const double part = sum > 0.0 ? flux / sum : 1.0 / static_cast<double>(fluxes.size());
-        shares.push_back(std::max(static_cast<int>(std::lround(part * total)), least));
+        const double stepped = part > 0.0 ? std::exp2(0.5 * std::round(2.0 * std::log2(part))) : 0.0;
+        shares.push_back(std::max(static_cast<int>(std::lround(stepped * total)), least));
     }
     return shares;
 }

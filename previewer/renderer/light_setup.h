@@ -33,8 +33,9 @@ struct LightSetup {
                                       const scene::Bounds& bounds, const gpu::RenderSpace& space, int rsm_size,
                                       int shadow_size);
 
-// How many of `total` samples each light gets: by flux, but none below a sixteenth of its even share's
-// worth, so that a dim light near the view keeps a picture.
+// How many of `total` samples each light gets: by flux, in steps of half an octave, so that a light that brightens
+// slowly does not change its pattern, and with it the picture, in every frame; the sum is near `total`. None below a sixteenth
+// of its even share's worth, so that a dim light near the view keeps a picture.
 [[nodiscard]] std::vector<int> share_samples(const std::vector<double>& fluxes, int total);
 
 }  // namespace bounce

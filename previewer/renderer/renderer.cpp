@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "gl/debug_output.h"
 #include "passes/deform.h"
 #include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
@@ -33,6 +34,18 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
 
+const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
+    auto found = patterns_.find({kind, samples});
+    if (found == patterns_.end()) {
+        const std::vector<glm::vec4> points = passes::make_rsm_pattern(kind, samples);
+        found = patterns_
+                    .emplace(std::pair(kind, samples),
+                             gl::Buffer::of("rsm pattern", std::span<const glm::vec4>(points)))
+                    .first;
+    }
+    return found->second;
+}
+
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing) {
     FrameReport report;
@@ -50,7 +63,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();
-    const CameraMatrices camera = camera_matrices(view, settings.width, settings.height, gpu_scene_.space());
+    const CameraMatrices camera = camera_matrices(
+        tighten_orthographic_depth(view, gpu_scene_.bounds()), settings.width, settings.height, gpu_scene_.space());
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples));
     };
@@ -84,20 +98,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     report.lights = static_cast<int>(lights.size());
 
     const std::vector<int> samples = share_samples(fluxes, settings.rsm_samples);
-    if (samples != pattern_counts_ || settings.rsm_pattern != pattern_kind_) {
-        patterns_.clear();
-        for (const int count : samples) {
-            const std::vector<glm::vec4> pattern = passes::make_rsm_pattern(settings.rsm_pattern, count);
-            patterns_.push_back(gl::Buffer::of("rsm pattern", std::span<const glm::vec4>(pattern)));
-        }
-        pattern_counts_ = samples;
-        pattern_kind_ = settings.rsm_pattern;
-    }
     std::vector<gpu::UniformArena::Slot> gather_frames;
     std::vector<const gl::Buffer*> patterns;
     for (size_t i = 0; i < samples.size(); ++i) {
         gather_frames.push_back(frame_slot(samples[i]));
-        patterns.push_back(&patterns_[i]);
+        patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect ? samples[i] : 0;
     }
     uniforms_.upload();
@@ -107,6 +112,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         timer.begin("deform");
         passes::run_deform(programs_, gpu_scene_);
         timer.end();
+        gl::throw_on_debug_error("deform");
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);

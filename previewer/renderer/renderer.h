@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame_graph/frame_graph.h"
@@ -56,7 +58,7 @@ class Renderer {
     void reload_shaders() { programs_.clear(); }
 
   private:
-    friend class Pipeline;
+    const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
     gpu::GpuScene gpu_scene_;
@@ -64,9 +66,8 @@ class Renderer {
     TransientPool pool_;
     gpu::UniformArena uniforms_;
     gl::Texture color_;
-    std::vector<gl::Buffer> patterns_;  // by light; kept while the counts stay
-    std::vector<int> pattern_counts_;
-    passes::RsmPattern pattern_kind_{};
+    // Sample patterns by kind and count, each made once.
+    std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
 };
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.

@@ -22,6 +22,8 @@ SceneReloader::Loaded load_or_say_why_not(const LoadScene& load) {
         return std::string(error.what());
     } catch (const std::bad_alloc&) {
         return std::string("there is not enough memory for the changed scene");
+    } catch (const std::exception& error) {  // the file system, where the file goes away meanwhile
+        return std::string(error.what());
     }
 }
 

@@ -91,13 +91,13 @@ Surface material_surface(out vec3 emission) {
 #ifdef EMISSION_TEXTURE
     emission *= texture(emission_texture, in_uv_normal_emission.zw).rgb;
 #endif
-    if (m.flags.y == 1) {  // unlit: shown as it is, reflects nothing
+#endif
+    if (m.flags.y == 1) {  // unlit: shown as it is, reflects nothing, to the viewer and to other surfaces
         emission = s.base_color;
         s.base_color = vec3(0.0);
         s.metallic = 0.0;
         s.specular = 0.0;
     }
-#endif
     return s;
 }
 

@@ -20,7 +20,7 @@ const float POSITION_ROUNDING = 1e-6;
 // depth by the factor 1 - n.(ds, dt, 0) / n.(s, t, 1). The point is lifted along n by h, which changes its
 // depth by the factor 1 - h / |z n.(s, t, 1)|: so h = z (|n_s| ds + |n_t| dt) clears the filter's reach
 // exactly. It is zero where the receiver lies across the map's axis, and nowhere larger than it has to be.
-// n_s and n_t are along the map's own axes, for a cube those of the face.
+// normal is the triangle's own; n_s and n_t are along the map's own axes, for a cube those of the face.
 float light_visibility(vec3 position, vec3 normal) {
     vec3 p = light_from_render(position);
     vec3 n = abs(vec3(dot(normal, light.tangent.xyz), dot(normal, light.bitangent.xyz),

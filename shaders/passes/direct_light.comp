@@ -10,6 +10,15 @@
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(binding = IMG_OUT, rgba32f) uniform image2D direct_image;
 
+#ifdef SHADOW
+layout(binding = TEX_GEOMETRIC_NORMAL) uniform sampler2D geometric_normal_texture;
+
+// A shadow map holds triangles, not what normal maps and smooth shading make of them.
+vec3 geometric_normal(ivec2 pixel) {
+    return octahedral_decode(texelFetch(geometric_normal_texture, pixel, 0).xy * 2.0 - 1.0);
+}
+#endif
+
 // Radiance towards v for irradiance 1 W/m^2 on a plane across l.
 vec3 reflected(Surface s, vec3 l, vec3 v) {
     float n_dot_l = dot(s.normal, l);
@@ -81,7 +90,7 @@ void main() {
 #endif
         if (max(max(radiance.r, radiance.g), radiance.b) > 0.0) {
 #ifdef SHADOW
-            radiance *= light_visibility(s.position, s.normal);
+            radiance *= light_visibility(s.position, geometric_normal(pixel));
 #endif
             sum += radiance;
         }

@@ -48,6 +48,8 @@ layout(location = 0) flat out uint out_material;
 #ifdef LIGHT_VIEW
 #include "lib/light.glsl"
 layout(location = 5) out vec3 out_light_space;
+#elif !defined(DEPTH_ONLY)
+layout(location = 7) out vec3 out_position;
 #endif
 
 void main() {
@@ -64,7 +66,9 @@ void main() {
     vec3 tangent = vec3(dot(draw.render_from_model[0].xyz, in_tangent.xyz),
                         dot(draw.render_from_model[1].xyz, in_tangent.xyz),
                         dot(draw.render_from_model[2].xyz, in_tangent.xyz));
-    out_tangent = vec4(tangent * inversesqrt(max(dot(tangent, tangent), 1e-30)), in_tangent.w);
+    // A mirroring transform turns the bitangent over against cross(normal, tangent).
+    out_tangent = vec4(tangent * inversesqrt(max(dot(tangent, tangent), 1e-30)),
+                       draw.ids.y == 1 ? -in_tangent.w : in_tangent.w);
 #endif
 #endif
 #ifdef ANY_TEXTURE
@@ -76,5 +80,7 @@ void main() {
 #endif
 #ifdef LIGHT_VIEW
     out_light_space = light_from_render(position);
+#elif !defined(DEPTH_ONLY)
+    out_position = position;
 #endif
 }

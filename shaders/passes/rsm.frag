@@ -16,7 +16,10 @@ void main() {
 #if MAP_KIND == MAP_ORTHOGRAPHIC
     float profile = 1.0;
 #else
-    float profile = light_profile(safe_normalize(in_light_space, vec3(0.0, 0.0, 1.0)));
+    float squared = dot(in_light_space, in_light_space);
+    // The light's radius weakens it near by as in passes/direct_light.comp.
+    float profile = light_profile(safe_normalize(in_light_space, vec3(0.0, 0.0, 1.0))) * squared /
+                    max(squared + light.intensity.w, 1e-30);
 #endif
     out_rsm = pack_rsm(depth, s.normal, diffuse_albedo(s) * profile, s.roughness, s.disney);
 }

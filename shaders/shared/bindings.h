@@ -38,6 +38,7 @@
 #define TEX_DIRECT 10
 #define TEX_INDIRECT 11
 #define TEX_LOWRES 12
+#define TEX_GEOMETRIC_NORMAL 13
 
 // Image units.
 #define IMG_OUT 0

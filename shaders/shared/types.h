@@ -63,7 +63,7 @@ struct GpuMaterial {
 struct GpuDraw {
     vec4 render_from_model[3];  // rows
     vec4 normal_from_model[3];  // rows of the cofactor matrix (xyz)
-    ivec4 ids;                  // material, -, -, -
+    ivec4 ids;                  // material, 1 where the transform mirrors, -, -
 };
 
 struct DeformJob {

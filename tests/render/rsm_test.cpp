@@ -145,6 +145,26 @@ TEST_F(Rsm, FluxKeepsItsDigitsFromMicrowattsToMegawatts) {
     }
 }
 
+TEST_F(Rsm, UnlitSurfacesBounceNothing) {
+    scene::Scene scene = corner_scene();
+    add_light(scene, light_of(scene::LightType::spot), cases()[0].world_from_light);
+    for (scene::Material& material : scene.materials) {
+        material.unlit = true;
+    }
+    EXPECT_EQ(draw(scene, corner_camera(), small(112)).mean(), 0.0);
+}
+
+TEST_F(Rsm, ARadiusWeakensTheBounceAsItDoesTheLight) {
+    // A narrow spot of radius r at distance d from the wall: d^2 / (d^2 + r^2) of the light arrives.
+    scene::Scene scene = corner_scene();
+    scene::Light spot = light_of(scene::LightType::spot);
+    spot.cone_angle_rad = 0.1F;
+    add_light(scene, spot, rotated(90.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.5}));
+    const double without = draw(scene, corner_camera(), small(224)).mean();
+    scene.lights[0].radius_m = 1.0F;
+    EXPECT_NEAR(draw(scene, corner_camera(), small(224)).mean() / without, 4.0 / 5.0, 0.005);
+}
+
 TEST_F(Rsm, InterpolationStaysNearTheFullGather) {
     scene::Scene scene = corner_scene();
     add_light(scene, light_of(scene::LightType::spot), cases()[0].world_from_light);

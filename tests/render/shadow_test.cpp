@@ -56,6 +56,59 @@ TEST_F(Shadows, EveryKindOfMapPutsTheShadowInTheSamePlace) {
     }
 }
 
+TEST_F(Shadows, ASunPutsItWhereItsRaysGo) {
+    // At 45 degrees from +x the square, half a metre up, throws its shadow half a metre to -x: from -1 to 0.
+    const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), 0.25 * pi, glm::dvec3(0.0, 1.0, 0.0));
+    const CameraView camera = camera_from_above(4.0, 10.0);
+    const Rendered lit = draw(scene_with(light_of(scene::LightType::sun), tilted, false), camera, settings());
+    const Rendered shaded = draw(scene_with(light_of(scene::LightType::sun), tilted, true), camera, settings());
+    const auto pixel = [](double x) { return static_cast<int>((x + 2.0) / 4.0 * 101.0); };
+    EXPECT_EQ(shaded.at(pixel(-0.75), 50).x, 0.0);
+    EXPECT_NEAR(shaded.at(pixel(-1.1), 50).x / lit.at(pixel(-1.1), 50).x, 1.0, 1e-3);
+    EXPECT_NEAR(shaded.at(pixel(0.8), 50).x / lit.at(pixel(0.8), 50).x, 1.0, 1e-3);
+}
+
+TEST_F(Shadows, AFarClipPlaneAndADomeOfKilometresChangeNothing) {
+    for (const auto type : {scene::LightType::spot, scene::LightType::point}) {
+        const glm::dmat4 at = glm::translate(glm::dmat4(1.0), glm::dvec3(1.5, 0.0, 3.0));
+        scene::Scene scene = scene_with(light_of(type), at, true);
+        const CameraView near_camera = camera_from_above(4.0, 10.0);
+        const Rendered expected = draw(scene, near_camera, settings());
+        CameraView far_camera = near_camera;
+        far_camera.camera.far_m = 1e5F;
+        // Two squares far to both sides make the scene twenty kilometres wide.
+        const int square = add_square(scene, 1.0F, 0);
+        for (const double x : {-1e4, 1e4}) {
+            add_mesh_node(scene, square, glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.0, 0.0)));
+        }
+        const Rendered got = draw(scene, far_camera, settings());
+        // Nearly every pixel: along the shadow's edge the map's texels may fall a little differently, and positions
+        // are rounded to a float of twenty kilometres (a millimetre).
+        int wrong = 0;
+        for (size_t i = 0; i < got.image.rgb.size(); i += 3) {
+            wrong += std::abs(got.image.rgb[i] - expected.image.rgb[i]) > 0.01F * std::abs(expected.image.rgb[i]) ? 1 : 0;
+        }
+        EXPECT_LT(wrong, 101 * 101 / 50) << "type " << static_cast<int>(type);
+    }
+}
+
+TEST_F(Shadows, SmoothShadingDoesNotShadowItself) {
+    // Normals bent by 30 degrees away from the triangle's own, as smooth shading and normal maps do: whatever
+    // the light does to the shading, the flat floor throws no shadow on itself.
+    for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
+        scene::Light light = light_of(type);
+        const glm::dmat4 at = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(2.0, 0.0, 2.5)), 0.6, glm::dvec3(0.0, 1.0, 0.0));
+        scene::Scene scene = scene_with(light, at, false);
+        scene.meshes[0].primitives[0].normals.assign(4, glm::vec3(0.0F, 0.5F, 0.866F));
+        const CameraView camera = camera_from_above(4.0, 10.0);
+        const Rendered with_shadow = draw(scene, camera, settings());
+        scene.lights[0].cast_shadow = false;
+        const Rendered without = draw(scene, camera, settings());
+        EXPECT_GT(without.mean(), 0.0);
+        EXPECT_NEAR(with_shadow.mean() / without.mean(), 1.0, 1e-5) << "type " << static_cast<int>(type);
+    }
+}
+
 TEST_F(Shadows, NothingShadowsItself) {
     // One floor and no occluder: at every incidence and for every kind of map the picture equals the one without
     // shadows. 1e-6: the same arithmetic but for the shadow's factor.

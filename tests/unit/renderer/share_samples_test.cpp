@@ -14,7 +14,7 @@ using Shares = std::vector<int>;
 TEST(ShareSamples, ByFlux) {
     EXPECT_EQ(share_samples({}, 224), Shares{});
     EXPECT_EQ(share_samples({5.0}, 224), Shares{224});
-    EXPECT_EQ(share_samples({3.0, 1.0}, 200), (Shares{150, 50}));
+    EXPECT_EQ(share_samples({3.0, 1.0}, 200), (Shares{141, 50})) << "0.75 is nearest to half an octave below 1";
 }
 
 TEST(ShareSamples, ADimLightKeepsASixteenthOfItsEvenShare) {
@@ -27,6 +27,11 @@ TEST(ShareSamples, EveryLightHasASampleHoweverMany) {
     for (const int share : shares) {
         EXPECT_EQ(share, 1);
     }
+}
+
+TEST(ShareSamples, ASlowChangeKeepsTheCounts) {
+    const Shares before = share_samples({100.0, 130.0}, 224);
+    EXPECT_EQ(share_samples({101.0, 130.0}, 224), before);
 }
 
 TEST(ShareSamples, LightsWithoutFluxShareAlike) {

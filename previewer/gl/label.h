@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <string>
+
+namespace bounce::gl {
+
+// Names an object for debuggers. Names come from files and may be longer than OpenGL takes (256 at least).
+inline void set_label(GLenum kind, GLuint id, const std::string& name) {
+    constexpr size_t longest = 255;
+    glObjectLabel(kind, id, static_cast<GLsizei>(std::min(name.size(), longest)), name.data());
+}
+
+}  // namespace bounce::gl
