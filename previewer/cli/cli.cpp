@@ -10,7 +10,8 @@
 namespace bounce::cli {
 
 int run(int argc, char** argv) {
-    CLI::App app{"Bounce previews animated scenes with global illumination and says how far from Cycles they are."};
+    CLI::App app{
+        "Bounce previews animated scenes with global illumination and says how far from Cycles they are."};
     app.name("bounce");
     app.set_version_flag("--version", "bounce " BOUNCE_VERSION);
     app.require_subcommand(1);

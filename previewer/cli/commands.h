@@ -4,8 +4,9 @@
 // successful parse, which returns the exit code or throws bounce::Error.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+#include <CLI/CLI.hpp>
 
 #include "core/error.h"
 

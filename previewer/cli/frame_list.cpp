@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/frame_list.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 
@@ -39,7 +39,8 @@ bool take(std::string_view& text, char c) {
 
 void add_range(std::string_view part, const std::string& text, std::vector<int>& frames) {
     const auto refuse = [&](const char* why) {
-        return usage_error(fmt::format("cannot read the frames '{}': {}; write 1-48, 1,24 or 1-48x4", text, why));
+        return usage_error(
+            fmt::format("cannot read the frames '{}': {}; write 1-48, 1,24 or 1-48x4", text, why));
     };
     const std::optional<int> first = take_number(part);
     if (!first) {
@@ -88,10 +89,12 @@ std::pair<int, int> parse_size(const std::string& text) {
     const bool cross = take(rest, 'x');
     const std::optional<int> height = take_number(rest);
     if (!width || !cross || !height || !rest.empty() || *width < 1 || *height < 1) {
-        throw usage_error(fmt::format("cannot read the size '{}'; write WIDTHxHEIGHT, such as 640x360", text));
+        throw usage_error(
+            fmt::format("cannot read the size '{}'; write WIDTHxHEIGHT, such as 640x360", text));
     }
     if (std::max(*width, *height) > k_largest_size) {
-        throw usage_error(fmt::format("the size {} is too large; {} pixels a side is the most", text, k_largest_size));
+        throw usage_error(
+            fmt::format("the size {} is too large; {} pixels a side is the most", text, k_largest_size));
     }
     return {*width, *height};
 }

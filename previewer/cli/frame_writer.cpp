@@ -8,18 +8,19 @@
 
 namespace bounce::cli {
 
-void FrameWriter::write(const std::filesystem::path& path, const Image& image, const scene::ViewSettings& view,
-                        int frame) const {
-    const ImageAttributes attributes = {{"Software", "bounce"},
-                                        {"bounce:scene", scene_.name},
-                                        {"bounce:frame", std::to_string(frame)}};
+void FrameWriter::write(const std::filesystem::path& path, const Image& image,
+                        const scene::ViewSettings& view, int frame) const {
+    const ImageAttributes attributes = {
+        {"Software", "bounce"}, {"bounce:scene", scene_.name}, {"bounce:frame", std::to_string(frame)}};
     // Debug layers are data to look at, not light: they go out without the scene's look.
-    const bool light = settings_.show == Show::shaded || settings_.show == Show::direct || settings_.show == Show::indirect;
+    const bool light =
+        settings_.show == Show::shaded || settings_.show == Show::direct || settings_.show == Show::indirect;
     if (is_scene_linear(path)) {
         write_image(path, image, attributes);
     } else if (light) {
         write_image(path,
-                    to_display(image, {view.display_device, view.view_transform, view.look, view.exposure, view.gamma}),
+                    to_display(image, {view.display_device, view.view_transform, view.look, view.exposure,
+                                       view.gamma}),
                     attributes);
     } else {
         write_image(path, to_display(image, {}), attributes);

@@ -15,7 +15,8 @@ class FrameWriter {
     FrameWriter(const scene::Scene& scene, const Settings& settings) : scene_(scene), settings_(settings) {}
 
     // Throws output_error.
-    void write(const std::filesystem::path& path, const Image& image, const scene::ViewSettings& view, int frame) const;
+    void write(const std::filesystem::path& path, const Image& image, const scene::ViewSettings& view,
+               int frame) const;
 
   private:
     const scene::Scene& scene_;

@@ -32,7 +32,7 @@ struct InfoArguments {
 struct Summary {
     const scene::LoadResult& loaded;
     scene::SceneFeatures features;
-    scene::Bounds bounds;  // at the first frame
+    scene::Bounds bounds;      // at the first frame
     std::uintmax_t bytes = 0;  // of the file; buffers and images beside it are not in it
     double load_ms = 0.0;      // reading, decompressing and checking it
 };
@@ -239,7 +239,8 @@ ExitCode run_info(const InfoArguments& arguments) {
     const std::filesystem::path file = resolve_scene(arguments.scene, arguments.source).gltf;
     const auto start = std::chrono::steady_clock::now();
     const scene::LoadResult loaded = scene::load_gltf(file);
-    const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const double load_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const int animation = scene::default_animation(loaded.scene);
     const scene::Pose pose = scene::evaluate_pose(loaded.scene, 0.0, animation);
     const Summary summary{loaded, scene::scene_features(loaded.scene, animation),

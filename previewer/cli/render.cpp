@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
@@ -38,27 +38,30 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
     if (!arguments.frames.empty()) {
         frames = parse_frames(arguments.frames);
     } else if (sequence) {
-        frames = parse_frames(fmt::format("{}-{}", scene.frames.start, std::max(scene.frames.start, scene.frames.end)));
+        frames = parse_frames(
+            fmt::format("{}-{}", scene.frames.start, std::max(scene.frames.start, scene.frames.end)));
     } else {
         frames = {scene.frames.start};
     }
     if (frames.size() > 1 && !sequence) {
-        throw usage_error(fmt::format("{} frames would overwrite one file; put #### where the frame number belongs",
-                                      frames.size()));
+        throw usage_error(fmt::format(
+            "{} frames would overwrite one file; put #### where the frame number belongs", frames.size()));
     }
     return frames;
 }
 
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
 FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const CameraView& camera,
-                         const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device, bool first) {
+                         const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device,
+                         bool first) {
     FrameStats stats;
     const auto once = [&](gl::TimingMode mode, const Settings& with) {
         glFinish();
         const auto start = std::chrono::steady_clock::now();
         FrameReport report = renderer.render(pose, camera, with, mode);
         glFinish();
-        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        const double ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::pair(std::move(report), ms);
     };
     // Times are of steady state: shaders are compiled and textures made by a rendering that is not counted.
@@ -71,7 +74,8 @@ FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const Came
         stats.all_wall_ms.push_back(ms);
     }
     if (!arguments.stats.empty() && arguments.pass_times) {
-        // Passes are timed in a rendering of their own, so that waiting for each does not slow the frame's time.
+        // Passes are timed in a rendering of their own, so that waiting for each does not slow the frame's
+        // time.
         Settings counting = settings;
         counting.count_gathered_pixels = true;
         stats.report = once(device.software ? gl::TimingMode::finish : gl::TimingMode::query, counting).first;
@@ -110,7 +114,8 @@ ExitCode render(const Arguments& arguments) {
         const scene::Pose pose = scene::evaluate_pose(scene, time_s, animation);
         const CameraView camera =
             scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
-        FrameStats measured = measure_frame(renderer, pose, camera, settings, arguments, device, frame == frames.front());
+        FrameStats measured =
+            measure_frame(renderer, pose, camera, settings, arguments, device, frame == frames.front());
         measured.frame = frame;
         measured.time_s = time_s;
         const Image image = renderer.read_color();
@@ -136,18 +141,24 @@ ExitCode render(const Arguments& arguments) {
 
 void add_render(CLI::App& app, Run& run) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("render", "Render frames to EXR (scene-linear), PNG and other files");
+    CLI::App* command =
+        app.add_subcommand("render", "Render frames to EXR (scene-linear), PNG and other files");
     command->add_option("scene", arguments->scene, "Scene: .glb, .gltf or .blend")->required();
     command
-        ->add_option("-o,--output", arguments->outputs,
-                     "Output file; #### stands for the frame number, .exr is scene-linear; may be given several times")
+        ->add_option(
+            "-o,--output", arguments->outputs,
+            "Output file; #### stands for the frame number, .exr is scene-linear; may be given several times")
         ->required();
     command->add_option("--frames", arguments->frames,
                         "Blender frame numbers: 1-48, 1,24 or 1-48x4; the scene's range by default");
-    command->add_option("--stats", arguments->stats, "Write times, passes and what was left out to this JSON file");
-    command->add_option("--repeat", arguments->repeat, "Render each frame N times after a warm-up; stats hold the median")
+    command->add_option("--stats", arguments->stats,
+                        "Write times, passes and what was left out to this JSON file");
+    command
+        ->add_option("--repeat", arguments->repeat,
+                     "Render each frame N times after a warm-up; stats hold the median")
         ->check(CLI::Range(1, 10000));
-    command->add_flag("!--no-pass-times", arguments->pass_times, "With --stats: do not time the passes one by one");
+    command->add_flag("!--no-pass-times", arguments->pass_times,
+                      "With --stats: do not time the passes one by one");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     command->callback([arguments, &run] { run = [arguments] { return render(*arguments); }; });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "cli/frame_list.h"
 #include "core/error.h"
@@ -14,7 +14,8 @@
 namespace bounce::cli {
 namespace {
 
-const std::map<std::string, Technique> k_techniques = {{"direct", Technique::direct}, {"rsm", Technique::rsm}};
+const std::map<std::string, Technique> k_techniques = {{"direct", Technique::direct},
+                                                       {"rsm", Technique::rsm}};
 
 const std::map<std::string, passes::RsmPattern> k_patterns = {
     {"inverse-square", passes::RsmPattern::inverse_square},
@@ -43,11 +44,12 @@ void require_shown_map(const RenderOptions& options, const Settings& settings, c
     if (settings.technique != Technique::rsm) {
         throw usage_error(fmt::format("--show {} needs --technique rsm", options.show));
     }
-    const auto lights = std::count_if(scene.topological_order.begin(), scene.topological_order.end(), [&](int node) {
-        return scene.nodes[static_cast<size_t>(node)].light != scene::k_none;
-    });
+    const auto lights = std::count_if(
+        scene.topological_order.begin(), scene.topological_order.end(),
+        [&](int node) { return scene.nodes[static_cast<size_t>(node)].light != scene::k_none; });
     if (options.light >= lights) {
-        throw usage_error(fmt::format("--light is {}; {} has {} lights, counted from 0", options.light, scene.name, lights));
+        throw usage_error(fmt::format("--light is {}; {} has {} lights, counted from 0", options.light,
+                                      scene.name, lights));
     }
 }
 
@@ -57,13 +59,18 @@ constexpr int k_most_samples = 1 << 15;
 }  // namespace
 
 void RenderOptions::add_to(CLI::App& command) {
-    command.add_option("--size", size, "Width and height in pixels, such as 640x360; the scene's own by default");
+    command.add_option("--size", size,
+                       "Width and height in pixels, such as 640x360; the scene's own by default");
     command.add_option("--camera", camera, "Camera node by name; the scene's active camera by default");
     command.add_option("--animation", animation, "Animation clip by name");
-    command.add_option("--technique", technique, "Light transport: direct, or rsm for one bounce by reflective shadow maps")
+    command
+        .add_option("--technique", technique,
+                    "Light transport: direct, or rsm for one bounce by reflective shadow maps")
         ->check(one_of(k_techniques))
         ->capture_default_str();
-    command.add_option("--rsm-samples", samples, "Pixel lights gathered at a pixel, over all lights; or all, for every texel")
+    command
+        .add_option("--rsm-samples", samples,
+                    "Pixel lights gathered at a pixel, over all lights; or all, for every texel")
         ->capture_default_str();
     command.add_option("--rsm-pattern", pattern, "How the gather's samples are spread")
         ->check(one_of(k_patterns))
@@ -75,14 +82,21 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--rsm-lowres", lowres, "The low-resolution gather takes one pixel in N x N")
         ->check(CLI::Range(2, 64))
         ->capture_default_str();
-    command.add_option("--rsm-size", rsm_size, "Side of a reflective shadow map in texels; half of it for a cube's faces")
+    command
+        .add_option("--rsm-size", rsm_size,
+                    "Side of a reflective shadow map in texels; half of it for a cube's faces")
         ->check(CLI::Range(2, 4096))
         ->capture_default_str();
-    command.add_option("--shadow-size", shadow_size, "Side of a shadow map in texels; half of it for a cube's faces")
+    command
+        .add_option("--shadow-size", shadow_size,
+                    "Side of a shadow map in texels; half of it for a cube's faces")
         ->check(CLI::Range(2, 16384))
         ->capture_default_str();
-    command.add_option("--show", show, "What the picture shows")->check(one_of(k_shows))->capture_default_str();
-    command.add_option("--light", light, "Which light's map the rsm- layers show, from 0")->check(CLI::Range(0, 100000));
+    command.add_option("--show", show, "What the picture shows")
+        ->check(one_of(k_shows))
+        ->capture_default_str();
+    command.add_option("--light", light, "Which light's map the rsm- layers show, from 0")
+        ->check(CLI::Range(0, 100000));
 }
 
 Settings RenderOptions::settings(const scene::Scene& scene) const {
@@ -105,10 +119,12 @@ Settings RenderOptions::settings(const scene::Scene& scene) const {
         out.rsm_full_sum = true;
         return out;
     }
-    const auto [end, code] = std::from_chars(samples.data(), samples.data() + samples.size(), out.rsm_samples);
+    const auto [end, code] =
+        std::from_chars(samples.data(), samples.data() + samples.size(), out.rsm_samples);
     if (code != std::errc() || end != samples.data() + samples.size() || out.rsm_samples < 1 ||
         out.rsm_samples > k_most_samples) {
-        throw usage_error(fmt::format("--rsm-samples is '{}'; give a number from 1 to {}, or all", samples, k_most_samples));
+        throw usage_error(fmt::format("--rsm-samples is '{}'; give a number from 1 to {}, or all", samples,
+                                      k_most_samples));
     }
     return out;
 }
@@ -120,7 +136,8 @@ int RenderOptions::animation_index(const scene::Scene& scene) const {
     const auto found = std::find_if(scene.animations.begin(), scene.animations.end(),
                                     [&](const scene::Animation& clip) { return clip.name == animation; });
     if (found == scene.animations.end()) {
-        throw usage_error(fmt::format("{} has no animation named {}; bounce info lists them", scene.name, animation));
+        throw usage_error(
+            fmt::format("{} has no animation named {}; bounce info lists them", scene.name, animation));
     }
     return static_cast<int>(found - scene.animations.begin());
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
+
+#include <CLI/CLI.hpp>
 
 #include "evaluate/blender_export.h"
 #include "scene/gltf_loader.h"
@@ -16,6 +16,7 @@ void add_scene_source_options(CLI::App& command, SceneSourceOptions& options);
 
 // Loads the scene the user named; a .blend is exported first. Throws what resolve_scene() and
 // scene::load_gltf() throw.
-[[nodiscard]] scene::LoadResult load_scene(const std::filesystem::path& scene, const SceneSourceOptions& options);
+[[nodiscard]] scene::LoadResult load_scene(const std::filesystem::path& scene,
+                                           const SceneSourceOptions& options);
 
 }  // namespace bounce::cli

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stats.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
+
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "core/atomic_file.h"
 #include "gl/memory.h"
@@ -80,8 +80,10 @@ void StatsFile::write(const std::filesystem::path& path) const {
     const FrameReport last = frames_.empty() ? FrameReport{} : frames_.back().report;
     out["left_out"] = left_out_json(last.left_out);
     out["approximations"] = last.approximations;
-    out["counts"] = {{"triangles", last.triangles}, {"vpls", last.rsm_samples}, {"points", 0}, {"lights", last.lights}};
-    out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()}, {"rss_peak_bytes", peak_resident_bytes()}};
+    out["counts"] = {
+        {"triangles", last.triangles}, {"vpls", last.rsm_samples}, {"points", 0}, {"lights", last.lights}};
+    out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()},
+                     {"rss_peak_bytes", peak_resident_bytes()}};
     write_text_file(path, out.dump(2) + "\n");
 }
 

@@ -22,7 +22,8 @@ struct FrameStats {
 // stats.json, schema bounce.stats/1 (docs/architecture.md).
 class StatsFile {
   public:
-    StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings, const RenderOptions& options)
+    StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings,
+              const RenderOptions& options)
         : scene_(std::move(scene)), device_(std::move(device)), settings_(settings), options_(options) {}
     void add(FrameStats frame) { frames_.push_back(std::move(frame)); }
     // Atomically. Throws output_error.

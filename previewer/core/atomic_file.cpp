@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/atomic_file.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <fstream>
 #include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/error.h"
 
@@ -38,8 +38,8 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_
     std::ofstream probe(temporary_, std::ios::binary);
     if (!probe) {
         const std::string folder = target_.has_parent_path() ? target_.parent_path().string() : ".";
-        throw output_error(fmt::format("cannot write to the folder {} (for {}); check its permissions", folder,
-                                       target_.filename().string()));
+        throw output_error(fmt::format("cannot write to the folder {} (for {}); check its permissions",
+                                       folder, target_.filename().string()));
     }
 }
 

@@ -31,8 +31,14 @@ class Error : public std::runtime_error {
 };
 
 // Shorthands, so that a throw reads as a sentence.
-[[nodiscard]] inline Error input_error(const std::string& message) { return {ExitCode::input_refused, message}; }
-[[nodiscard]] inline Error output_error(const std::string& message) { return {ExitCode::failed, message}; }
-[[nodiscard]] inline Error usage_error(const std::string& message) { return {ExitCode::usage, message}; }
+[[nodiscard]] inline Error input_error(const std::string& message) {
+    return {ExitCode::input_refused, message};
+}
+[[nodiscard]] inline Error output_error(const std::string& message) {
+    return {ExitCode::failed, message};
+}
+[[nodiscard]] inline Error usage_error(const std::string& message) {
+    return {ExitCode::usage, message};
+}
 
 }  // namespace bounce

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/interrupt.h"
 
-#include <fmt/format.h>
-
 #include <csignal>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 
@@ -42,7 +42,8 @@ InterruptGuard::~InterruptGuard() {
 
 void InterruptGuard::throw_if_interrupted(std::string_view state) const {
     if (g_signal != 0) {
-        throw Error(g_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted, fmt::format("interrupted; {}", state));
+        throw Error(g_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted,
+                    fmt::format("interrupted; {}", state));
     }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame_graph/dependency_graph.h"
 
-#include <fmt/format.h>
-
 #include <cassert>
 #include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace bounce {
 namespace {

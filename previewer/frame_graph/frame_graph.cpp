@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame_graph/frame_graph.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "gl/debug_output.h"
 
@@ -28,7 +28,8 @@ int FrameGraph::add_version(int resource) {
 
 int FrameGraph::declare(int pass, int version) {
     if (version < 0) {
-        throw std::logic_error(fmt::format("pass {} declares a resource that was never made", passes_[at(pass)].name));
+        throw std::logic_error(
+            fmt::format("pass {} declares a resource that was never made", passes_[at(pass)].name));
     }
     const int resource = resource_of_version_[at(version)];
     // Passes run in the order they were added, so what an older handle stands for is gone by now.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/buffer.h"
 
-#include "gl/label.h"
-
 #include <algorithm>
 #include <cassert>
+
+#include "gl/label.h"
 
 namespace bounce::gl {
 

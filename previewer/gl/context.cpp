@@ -4,11 +4,11 @@
 // epoxy must come first: it replaces the GL and EGL headers.
 #include <epoxy/gl.h>
 // then
-#include <epoxy/egl.h>
-#include <fmt/format.h>
-
 #include <array>
 #include <string_view>
+
+#include <epoxy/egl.h>
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "gl/debug_output.h"
@@ -17,9 +17,10 @@ namespace bounce::gl {
 namespace {
 
 Error no_opengl(const std::string& cause) {
-    return {ExitCode::no_opengl,
-            fmt::format("no usable OpenGL 4.5: {}; install a driver, or Mesa's software one (libgl1-mesa-dri)",
-                        cause)};
+    return {
+        ExitCode::no_opengl,
+        fmt::format("no usable OpenGL 4.5: {}; install a driver, or Mesa's software one (libgl1-mesa-dri)",
+                    cause)};
 }
 
 bool has_extension(const char* list, std::string_view name) {
@@ -65,12 +66,15 @@ HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
         throw no_opengl("EGL has no desktop OpenGL");
     }
-    constexpr std::array<EGLint, 9> context_attributes = {
-        EGL_CONTEXT_MAJOR_VERSION, 4,
-        EGL_CONTEXT_MINOR_VERSION, 5,
-        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE,
-        EGL_NONE};
+    constexpr std::array<EGLint, 9> context_attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                          4,
+                                                          EGL_CONTEXT_MINOR_VERSION,
+                                                          5,
+                                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                          EGL_CONTEXT_OPENGL_DEBUG,
+                                                          EGL_TRUE,
+                                                          EGL_NONE};
     // No config: nothing is drawn to a surface (EGL_KHR_no_config_context).
     impl_->context = eglCreateContext(impl_->display, nullptr, EGL_NO_CONTEXT, context_attributes.data());
     if (impl_->context == EGL_NO_CONTEXT) {
@@ -101,7 +105,8 @@ DeviceInfo initialise_current_context() {
     if (!epoxy_is_desktop_gl() || version < 45) {
         throw no_opengl(fmt::format("this driver has {}.{}", version / 10, version % 10));
     }
-    DeviceInfo device{gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION), is_software_driver()};
+    DeviceInfo device{gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION),
+                      is_software_driver()};
     install_debug_output();
     // Depth 0..1 with 1 at the near plane keeps float precision far away.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/debug_output.h"
 
-#include <epoxy/gl.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/log.h"
@@ -18,7 +18,8 @@ thread_local std::string g_first_error;
 
 void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
                            const GLchar* text, const void* /*user*/) {
-    // What a compiler says is in its log, which Program throws; left here it would be blamed on the next pass.
+    // What a compiler says is in its log, which Program throws; left here it would be blamed on the next
+    // pass.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) {
         return;
     }
@@ -61,7 +62,8 @@ void throw_on_debug_error(std::string_view where) {
 
 DebugGroup::DebugGroup(std::string_view name) {
     constexpr size_t longest = 255;  // drivers take 256 at least
-    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(std::min(name.size(), longest)), name.data());
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(std::min(name.size(), longest)),
+                     name.data());
 }
 
 DebugGroup::~DebugGroup() {

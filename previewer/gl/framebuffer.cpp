@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/framebuffer.h"
 
-#include "gl/label.h"
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "core/error.h"
+#include "gl/label.h"
 
 namespace bounce::gl {
 
-Framebuffer::Framebuffer(const std::string& name, std::initializer_list<Attachment> colors, Attachment depth) {
+Framebuffer::Framebuffer(const std::string& name, std::initializer_list<Attachment> colors,
+                         Attachment depth) {
     GLuint id = 0;
     glCreateFramebuffers(1, &id);
     object_ = Object<delete_framebuffer>(id);
@@ -42,7 +42,8 @@ Framebuffer::Framebuffer(const std::string& name, std::initializer_list<Attachme
     const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         throw Error(ExitCode::failed,
-                    fmt::format("this OpenGL driver cannot draw to the targets of {} (status 0x{:04x})", name, status));
+                    fmt::format("this OpenGL driver cannot draw to the targets of {} (status 0x{:04x})", name,
+                                status));
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <string>
+
+#include <epoxy/gl.h>
 
 namespace bounce::gl {
 

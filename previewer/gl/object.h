@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <utility>
+
+#include <epoxy/gl.h>
 
 namespace bounce::gl {
 

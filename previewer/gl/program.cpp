@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/program.h"
 
-#include "gl/label.h"
+#include <string>
 
 #include <fmt/format.h>
 
-#include <string>
-
 #include "core/error.h"
+#include "gl/label.h"
 
 namespace bounce::gl {
 namespace {

@@ -38,7 +38,8 @@ class Program {
 class ProgramCache {
   public:
     const Program& compute(const std::string& path, const Defines& defines = {});
-    const Program& raster(const std::string& vertex, const std::string& fragment, const Defines& defines = {});
+    const Program& raster(const std::string& vertex, const std::string& fragment,
+                          const Defines& defines = {});
     [[nodiscard]] size_t size() const { return programs_.size(); }
     void clear() { programs_.clear(); }
 

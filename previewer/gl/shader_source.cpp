@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/shader_source.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 
@@ -20,7 +20,8 @@ std::string read_shader_file(const std::string& path) {
         const std::filesystem::path file = std::filesystem::path(folder) / path;
         const std::ifstream in(file, std::ios::binary);
         if (!in) {
-            throw Error(ExitCode::failed, fmt::format("cannot read the shader {} ($BOUNCE_SHADER_DIR is set)", file.string()));
+            throw Error(ExitCode::failed,
+                        fmt::format("cannot read the shader {} ($BOUNCE_SHADER_DIR is set)", file.string()));
         }
         std::ostringstream text;
         text << in.rdbuf();

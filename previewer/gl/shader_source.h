@@ -17,9 +17,9 @@ struct ShaderSource {
     std::vector<std::string> files;
 };
 
-// Reads a shader by its path under shaders/, resolves #include "path under shaders/" and puts the version line and the defines in front. Shaders are packed into the program; where
-// $BOUNCE_SHADER_DIR is set they are read from that folder instead, for work on them.
-// Throws Error(failed) for a missing file.
+// Reads a shader by its path under shaders/, resolves #include "path under shaders/" and puts the version
+// line and the defines in front. Shaders are packed into the program; where $BOUNCE_SHADER_DIR is set they
+// are read from that folder instead, for work on them. Throws Error(failed) for a missing file.
 [[nodiscard]] ShaderSource load_shader(std::string_view path, const Defines& defines);
 
 // Replaces "FILE_INDEX(" or "FILE_INDEX:" at the start of a compiler's message lines by the file's name.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/texture.h"
 
-#include "gl/label.h"
-
 #include <algorithm>
+
+#include "gl/label.h"
 
 namespace bounce::gl {
 
@@ -54,7 +54,8 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
                   static_cast<size_t>(std::max(desc.height >> level, 1));
     }
-    allocation_ = Allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
+    allocation_ =
+        Allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
 }
 
 }  // namespace bounce::gl

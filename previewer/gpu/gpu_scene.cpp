@@ -91,8 +91,9 @@ GpuScene::GpuScene(const scene::Scene& scene) : scene_(scene), vertices_(scene),
 }
 
 void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
-    const bool unchanged = current_materials_.size() == materials.size() && materials_ &&
-                           std::equal(materials.begin(), materials.end(), current_materials_.begin(), same_material);
+    const bool unchanged =
+        current_materials_.size() == materials.size() && materials_ &&
+        std::equal(materials.begin(), materials.end(), current_materials_.begin(), same_material);
     if (unchanged) {
         return;
     }
@@ -163,9 +164,11 @@ void GpuScene::build_batches(const scene::Pose& pose) {
     }
     const auto key = [](const Item& item) {
         const DrawBatch& b = item.batch;
-        return std::tuple(b.features, b.cull_back_faces, b.mirrored, b.material, b.first_index, b.base_vertex);
+        return std::tuple(b.features, b.cull_back_faces, b.mirrored, b.material, b.first_index,
+                          b.base_vertex);
     };
-    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return key(a) < key(b); });
+    std::stable_sort(items.begin(), items.end(),
+                     [&](const Item& a, const Item& b) { return key(a) < key(b); });
 
     batches_.clear();
     std::vector<GpuDraw> draws;
@@ -210,10 +213,9 @@ void GpuScene::bind_material(const DrawBatch& batch) const {
 void GpuScene::draw(const DrawBatch& batch) {
     const auto* offset = reinterpret_cast<const void*>(  // NOLINT: OpenGL takes the offset as a pointer
         static_cast<uintptr_t>(batch.first_index) * sizeof(uint32_t));
-    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(batch.index_count),
-                                                  GL_UNSIGNED_INT, offset,
-                                                  static_cast<GLsizei>(batch.draw_count), batch.base_vertex,
-                                                  batch.first_draw);
+    glDrawElementsInstancedBaseVertexBaseInstance(
+        GL_TRIANGLES, static_cast<GLsizei>(batch.index_count), GL_UNSIGNED_INT, offset,
+        static_cast<GLsizei>(batch.draw_count), batch.base_vertex, batch.first_draw);
 }
 
 }  // namespace bounce::gpu

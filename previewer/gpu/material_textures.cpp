@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-
 #include "gl/context.h"
 
 namespace bounce::gpu {
@@ -47,8 +46,9 @@ gl::Texture upload(const scene::Image& image, bool color) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (std::max(image.width, image.height) > largest) {
-        throw input_error(fmt::format("the image {} is {} x {} pixels; this OpenGL takes {} a side: make it smaller",
-                                      image.name, image.width, image.height, largest));
+        throw input_error(
+            fmt::format("the image {} is {} x {} pixels; this OpenGL takes {} a side: make it smaller",
+                        image.name, image.width, image.height, largest));
     }
     gl::TextureDesc desc;
     const bool wide = !image.rgba16.empty();

@@ -69,7 +69,8 @@ VertexStore::VertexStore(const scene::Scene& scene) {
     for (const scene::Mesh& mesh : scene.meshes) {
         std::vector<PrimitiveRange>& ranges = ranges_.emplace_back();
         for (const scene::Primitive& primitive : mesh.primitives) {
-            ranges.push_back({static_cast<int>(build.positions.size()), static_cast<uint32_t>(build.indices.size()),
+            ranges.push_back({static_cast<int>(build.positions.size()),
+                              static_cast<uint32_t>(build.indices.size()),
                               static_cast<uint32_t>(primitive.indices.size())});
             build.add_vertices(primitive);
             build.indices.insert(build.indices.end(), primitive.indices.begin(), primitive.indices.end());
@@ -108,7 +109,8 @@ void VertexStore::add_deformed_nodes(const scene::Scene& scene, Builder& build) 
             job.vertices = {range.base_vertex, static_cast<int>(build.positions.size()), count, 0};
             job.skin = {-1, 0, 0, 0};
             if (node.skin != scene::k_none && !primitive.joints.empty()) {
-                job.skin = {static_cast<int>(build.influences.size()), skin_first_matrix_[at(node.skin)], 0, 0};
+                job.skin = {static_cast<int>(build.influences.size()), skin_first_matrix_[at(node.skin)], 0,
+                            0};
                 for (size_t v = 0; v < primitive.joints.size(); ++v) {
                     build.influences.push_back({glm::uvec4(primitive.joints[v]), primitive.weights[v]});
                 }
@@ -119,9 +121,11 @@ void VertexStore::add_deformed_nodes(const scene::Scene& scene, Builder& build) 
             job.morph = {static_cast<int>(build.deltas.size()), targets, first_weight, stride};
             for (const scene::MorphTarget& target : primitive.targets) {
                 for (size_t v = 0; v < primitive.positions.size(); ++v) {
-                    build.deltas.emplace_back(target.positions.empty() ? glm::vec3(0.0F) : target.positions[v], 0.0F);
+                    build.deltas.emplace_back(
+                        target.positions.empty() ? glm::vec3(0.0F) : target.positions[v], 0.0F);
                     if (with_normals) {
-                        build.deltas.emplace_back(target.normals.empty() ? glm::vec3(0.0F) : target.normals[v], 0.0F);
+                        build.deltas.emplace_back(
+                            target.normals.empty() ? glm::vec3(0.0F) : target.normals[v], 0.0F);
                     }
                 }
             }
@@ -176,7 +180,8 @@ void VertexStore::create(Builder& build) {
         jobs_buffer_ = gl::Buffer::of("deform jobs", std::span<const DeformJob>(jobs_));
         influences_ = stream("skin influences", build.influences);
         deltas_ = stream("morph deltas", build.deltas);
-        skin_matrices_ = gl::Buffer("skin matrices", at(build.matrices) * 3 * sizeof(glm::vec4), GL_DYNAMIC_STORAGE_BIT);
+        skin_matrices_ =
+            gl::Buffer("skin matrices", at(build.matrices) * 3 * sizeof(glm::vec4), GL_DYNAMIC_STORAGE_BIT);
         weights_ = gl::Buffer("morph weights", at(build.weights) * sizeof(float), GL_DYNAMIC_STORAGE_BIT);
     }
 }

@@ -9,7 +9,8 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
     GBuffer out;
     graph.add_pass("gbuffer", [&](PassBuilder& builder) {
         const auto target = [&](const char* name, GLenum format) {
-            return builder.create_texture(name, {.format = format, .width = context.width, .height = context.height});
+            return builder.create_texture(
+                name, {.format = format, .width = context.width, .height = context.height});
         };
         out.depth = target("depth", GL_DEPTH_COMPONENT32F);
         out.base_color_roughness = target("base colour, roughness", GL_RGBA16F);
@@ -25,7 +26,8 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
             const gl::Attachment depth{&resources.texture(out.depth)};
             const bool emission = out.emission.valid();
             const gl::Framebuffer& framebuffer =
-                emission ? resources.framebuffer({color, normal, geometric, {&resources.texture(out.emission)}}, depth)
+                emission ? resources.framebuffer(
+                               {color, normal, geometric, {&resources.texture(out.emission)}}, depth)
                          : resources.framebuffer({color, normal, geometric}, depth);
             framebuffer.bind();
             constexpr std::array<float, 4> black{};

@@ -73,8 +73,8 @@ TextureHandle add_rsm_gather(FrameGraph& graph, const PassContext& context, cons
     TextureHandle out;
     graph.add_pass("rsm gather", [&](PassBuilder& builder) {
         declare(builder, inputs);
-        out = builder.create_texture("irradiance",
-                                     {.format = GL_RGBA32F, .width = context.width, .height = context.height});
+        out = builder.create_texture(
+            "irradiance", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
         return [context, inputs, out](const PassResources& resources) {
             gather(context, resources, inputs, Mode::full, resources.texture(out));
         };
@@ -87,9 +87,10 @@ InterpolatedGather add_rsm_gather_interpolated(FrameGraph& graph, const PassCont
     TextureHandle low;
     graph.add_pass("rsm gather, low resolution", [&](PassBuilder& builder) {
         declare(builder, inputs);
-        low = builder.create_texture("low-resolution irradiance", {.format = GL_RGBA32F,
-                                                                   .width = (context.width + step - 1) / step,
-                                                                   .height = (context.height + step - 1) / step});
+        low = builder.create_texture("low-resolution irradiance",
+                                     {.format = GL_RGBA32F,
+                                      .width = (context.width + step - 1) / step,
+                                      .height = (context.height + step - 1) / step});
         return [context, inputs, low](const PassResources& resources) {
             gather(context, resources, inputs, Mode::low_resolution, resources.texture(low));
         };

@@ -6,6 +6,7 @@
 namespace bounce::passes {
 
 // Depth seen from a light: one layer, or six for a cube.
-[[nodiscard]] TextureHandle add_shadow_map(FrameGraph& graph, const PassContext& context, const LightPass& light);
+[[nodiscard]] TextureHandle add_shadow_map(FrameGraph& graph, const PassContext& context,
+                                           const LightPass& light);
 
 }  // namespace bounce::passes

@@ -19,14 +19,13 @@ Window blender_window(const scene::Camera& camera, const scene::Sensor& sensor, 
     const bool horizontal = sensor.fit == scene::SensorFit::horizontal ||
                             (sensor.fit == scene::SensorFit::automatic && width >= tall);
     const double fitted_pixels = horizontal ? width : tall;
-    const double sensor_mm =
-        sensor.fit == scene::SensorFit::vertical ? sensor.height_mm : sensor.width_mm;
+    const double sensor_mm = sensor.fit == scene::SensorFit::vertical ? sensor.height_mm : sensor.width_mm;
     const double extent = camera.perspective ? sensor_mm / sensor.focal_length_mm : sensor.ortho_scale;
     const double pixel = extent / fitted_pixels;
     const double shift_x = sensor.shift_x * fitted_pixels;
     const double shift_y = sensor.shift_y * fitted_pixels;
-    return {(-0.5 * width + shift_x) * pixel, (0.5 * width + shift_x) * pixel, (-0.5 * tall + shift_y) * pixel,
-            (0.5 * tall + shift_y) * pixel};
+    return {(-0.5 * width + shift_x) * pixel, (0.5 * width + shift_x) * pixel,
+            (-0.5 * tall + shift_y) * pixel, (0.5 * tall + shift_y) * pixel};
 }
 
 Window gltf_window(const scene::Camera& camera, double width, double height, double pixel_aspect) {
@@ -46,7 +45,8 @@ CameraView tighten_orthographic_depth(const CameraView& view, const scene::Bound
     const glm::dvec3 eye(view.world_from_camera[3]);
     const double middle = glm::dot(bounds.center() - eye, forward);
     // Half the box's extent along the view, and a little room for rounding.
-    const double reach = 0.5 * glm::dot(bounds.high - bounds.low, glm::abs(forward)) + 0.01 * bounds.diagonal();
+    const double reach =
+        0.5 * glm::dot(bounds.high - bounds.low, glm::abs(forward)) + 0.01 * bounds.diagonal();
     CameraView out = view;
     out.camera.near_m = std::max(view.camera.near_m, static_cast<float>(middle - reach));
     out.camera.far_m = std::min(view.camera.far_m, static_cast<float>(middle + reach));
@@ -88,8 +88,8 @@ CameraMatrices camera_matrices(const CameraView& view, int width, int height, co
         clip_from_camera[2][2] = 1.0 / range;
         clip_from_camera[3] = glm::dvec4(x0, y0, 1.0 + near / range, 1.0);
     }
-    const glm::dmat4 camera_from_render = glm::inverse(
-        glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0), glm::dvec4(out.position, 1.0)));
+    const glm::dmat4 camera_from_render = glm::inverse(glm::dmat4(
+        glm::dvec4(right, 0.0), glm::dvec4(up, 0.0), glm::dvec4(back, 0.0), glm::dvec4(out.position, 1.0)));
     out.clip_from_render = clip_from_camera * camera_from_render;
     out.render_from_clip = glm::inverse(out.clip_from_render);
     return out;

@@ -26,9 +26,9 @@ struct CameraMatrices {
     double pixel_radius = 0.0;
 };
 
-// The view with an orthographic camera's clip planes drawn in to what the bounds hold. Such a depth is linear: in
-// a range of a kilometre its steps are wider than the rounding that shadows allow for. Perspective depth has
-// relative steps and stays as it is.
+// The view with an orthographic camera's clip planes drawn in to what the bounds hold. Such a depth is
+// linear: in a range of a kilometre its steps are wider than the rounding that shadows allow for. Perspective
+// depth has relative steps and stays as it is.
 [[nodiscard]] CameraView tighten_orthographic_depth(const CameraView& view, const scene::Bounds& bounds);
 
 // Clip depth is 1 at the near plane and 0 at the far one, or at infinity. With Camera::sensor the frame is

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/frame_plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace bounce {
 namespace {
@@ -24,9 +24,10 @@ bool sends_light(const scene::Light& light) {
 
 bool deforms(const scene::Scene& scene, const scene::DrawInstance& draw) {
     const scene::Mesh& mesh = scene.meshes[at(draw.mesh)];
-    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const scene::Primitive& primitive) {
-        return !primitive.targets.empty() || (draw.skin != scene::k_none && !primitive.joints.empty());
-    });
+    return std::any_of(
+        mesh.primitives.begin(), mesh.primitives.end(), [&](const scene::Primitive& primitive) {
+            return !primitive.targets.empty() || (draw.skin != scene::k_none && !primitive.joints.empty());
+        });
 }
 
 // Calls visit(material) for each material that a visible draw uses.
@@ -58,7 +59,8 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& p
             plan.approximations.push_back(
                 fmt::format("area light {}: its shadow and bounce are taken from its centre", light.name));
         } else if (soft && plan.shadows.back()) {
-            plan.approximations.push_back(fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
+            plan.approximations.push_back(
+                fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
         }
     }
     if (settings.technique == Technique::rsm && plan.lights.empty()) {
@@ -113,7 +115,8 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan.indirect = plan.indirect && !plan.lights.empty();
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, plan);
-    plan.interpolate = plan.indirect && settings.interpolate && settings.lowres_step > 1 && !settings.rsm_full_sum;
+    plan.interpolate =
+        plan.indirect && settings.interpolate && settings.lowres_step > 1 && !settings.rsm_full_sum;
     if (plan.indirect && !plan.interpolate) {
         plan.left_out.push_back({"rsm interpolate", "every pixel is evaluated in full, as asked for"});
     }

@@ -22,12 +22,13 @@ struct FramePlan {
     bool interpolate = false;
     bool emission = false;
     bool world_light = false;
-    std::vector<int> lights;         // into Pose::light_instances, those that send light
-    std::vector<bool> shadows;       // per entry of `lights`
-    std::vector<LeftOut> left_out;   // and why
+    std::vector<int> lights;                  // into Pose::light_instances, those that send light
+    std::vector<bool> shadows;                // per entry of `lights`
+    std::vector<LeftOut> left_out;            // and why
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
 };
 
-[[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings);
+[[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose,
+                                   const Settings& settings);
 
 }  // namespace bounce

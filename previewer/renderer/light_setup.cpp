@@ -11,9 +11,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Near plane of a light's perspective maps, render space (the scene's diagonal is 1). Depth is near/z in a float,
-// whose digits are relative, so a near plane far below anything costs no precision, and a small light set-up
-// under a dome of kilometres keeps its shadows. What is nearer still is clamped, not lost.
+// Near plane of a light's perspective maps, render space (the scene's diagonal is 1). Depth is near/z in a
+// float, whose digits are relative, so a near plane far below anything costs no precision, and a small light
+// set-up under a dome of kilometres keeps its shadows. What is nearer still is clamped, not lost.
 constexpr double k_near = 1e-9;
 
 // A perspective map's texels grow towards its rim with 1/cos^3: wider cones than this are drawn as cubes.
@@ -37,7 +37,8 @@ Frame light_frame(const glm::dmat4& world_from_light, const gpu::RenderSpace& sp
     glm::dvec3 x = unit_or(glm::dvec3(world_from_light[0]), {1.0, 0.0, 0.0});
     x -= frame.axis * glm::dot(x, frame.axis);
     // A singular transform leaves no X: any direction across the axis will do.
-    const glm::dvec3 any = std::abs(frame.axis.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 any =
+        std::abs(frame.axis.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     frame.tangent = unit_or(x, unit_or(any - frame.axis * glm::dot(any, frame.axis), {0.0, 1.0, 0.0}));
     frame.bitangent = glm::cross(frame.tangent, frame.axis);
     frame.position = space.point(glm::dvec3(world_from_light[3]));
@@ -75,9 +76,9 @@ void add_cube_faces(const Frame& frame, LightSetup& out) {
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double sign = face % 2 == 0 ? 1.0 : -1.0;
-        out.faces.push_back(
-            {glm::mat4(perspective((axis + 1) % 3, (axis + 2) % 3, axis, sign, 1.0) * light_from_render(frame)),
-             sign < 0.0});
+        out.faces.push_back({glm::mat4(perspective((axis + 1) % 3, (axis + 2) % 3, axis, sign, 1.0) *
+                                       light_from_render(frame)),
+                             sign < 0.0});
     }
 }
 
@@ -122,7 +123,8 @@ void set_up_spot(const scene::Light& light, gpu::GpuLight& gpu, int& profile) {
     if (light.profile == scene::SpotProfile::khronos) {
         profile = PROFILE_SPOT_KHRONOS;
         // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        const double scale = 1.0 / std::max(1e-3, std::cos(static_cast<double>(light.inner_cone_rad)) - cos_half);
+        const double scale =
+            1.0 / std::max(1e-3, std::cos(static_cast<double>(light.inner_cone_rad)) - cos_half);
         gpu.cone = glm::vec4(glm::dvec4(scale, -cos_half * scale, 0.0, 0.0));
         return;
     }
@@ -133,15 +135,17 @@ void set_up_spot(const scene::Light& light, gpu::GpuLight& gpu, int& profile) {
 
 // A soft box whose slats hide light beyond spread/2, its power kept: integral of cos (1 - tan a tan) over the
 // hemisphere, a = (pi - spread)/2. Matches the measured profile in docs/lights.md.
-void set_up_area(const scene::LightInstance& instance, const scene::Light& light, const gpu::RenderSpace& space,
-                 gpu::GpuLight& gpu) {
+void set_up_area(const scene::LightInstance& instance, const scene::Light& light,
+                 const gpu::RenderSpace& space, gpu::GpuLight& gpu) {
     const double slats = 0.5 * (pi - std::clamp(static_cast<double>(light.spread_rad), 0.02, pi));
     const double tangent = std::tan(slats);
     const double norm = slats > 1e-6 ? 2.0 / (2.0 + (2.0 * slats - pi) * tangent) : 1.0;
     const double width = light.size_x_m * glm::length(glm::dvec3(instance.world_from_light[0])) * space.scale;
-    const double height = light.size_y_m * glm::length(glm::dvec3(instance.world_from_light[1])) * space.scale;
+    const double height =
+        light.size_y_m * glm::length(glm::dvec3(instance.world_from_light[1])) * space.scale;
     gpu.area = glm::vec4(glm::dvec4(0.5 * width, 0.5 * height, tangent, norm));
-    gpu.map.w = light.shape == scene::AreaShape::disk || light.shape == scene::AreaShape::ellipse ? 1.0F : 0.0F;
+    gpu.map.w =
+        light.shape == scene::AreaShape::disk || light.shape == scene::AreaShape::ellipse ? 1.0F : 0.0F;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace bounce {
 namespace {
 
 bool shows_rsm_layer(Show show) {
-    return show == Show::rsm_depth || show == Show::rsm_position || show == Show::rsm_normal || show == Show::rsm_flux;
+    return show == Show::rsm_depth || show == Show::rsm_position || show == Show::rsm_normal ||
+           show == Show::rsm_flux;
 }
 
 passes::Layer layer_of(Show show) {
@@ -51,11 +52,13 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
-            const TextureHandle shadow = in.plan.shadows[i] ? add_shadow_map(graph, context, light) : TextureHandle{};
+            const TextureHandle shadow =
+                in.plan.shadows[i] ? add_shadow_map(graph, context, light) : TextureHandle{};
             direct = add_direct_light(graph, context, gbuffer, light, shadow, direct);
         }
         if (in.plan.indirect) {
-            gather.sources.push_back({light, add_rsm(graph, context, light), in.gather_frames[i], in.patterns[i]});
+            gather.sources.push_back(
+                {light, add_rsm(graph, context, light), in.gather_frames[i], in.patterns[i]});
         }
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/renderer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "gl/debug_output.h"
@@ -15,16 +15,17 @@
 namespace bounce {
 namespace {
 
-gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Scene& scene, const scene::Pose& pose,
-                                  const Settings& settings, int samples) {
+gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Scene& scene,
+                                  const scene::Pose& pose, const Settings& settings, int samples) {
     gpu::FrameUniforms frame{};
     frame.render_from_clip = glm::mat4(camera.render_from_clip);
     frame.camera_position = glm::vec4(glm::vec3(camera.position), camera.perspective ? 1.0F : 0.0F);
     frame.camera_forward = glm::vec4(glm::vec3(camera.forward), 0.0F);
     frame.world_radiance = glm::vec4(pose.world.color * pose.world.strength, 0.0F);
     frame.size = {settings.width, settings.height, settings.lowres_step, samples};
-    frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)), settings.interpolation_plane,
-                           static_cast<float>(camera.pixel_radius), settings.interpolation_distance};
+    frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)),
+                           settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
+                           settings.interpolation_distance};
     frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, 0.0F};
     return frame;
 }
@@ -63,8 +64,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();
-    const CameraMatrices camera = camera_matrices(
-        tighten_orthographic_depth(view, gpu_scene_.bounds()), settings.width, settings.height, gpu_scene_.space());
+    const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
+                                                  settings.width, settings.height, gpu_scene_.space());
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples));
     };
@@ -116,20 +117,21 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);
-    build_pipeline(graph, {.plan = plan,
-                           .settings = settings,
-                           .context = {.programs = programs_,
-                                       .scene = gpu_scene_,
-                                       .uniforms = uniforms_,
-                                       .frame = frame,
-                                       .width = settings.width,
-                                       .height = settings.height},
-                           .camera = camera_view,
-                           .lights = lights,
-                           .gather_frames = gather_frames,
-                           .patterns = patterns,
-                           .target = graph.import_texture("color", color_),
-                           .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});
+    build_pipeline(graph,
+                   {.plan = plan,
+                    .settings = settings,
+                    .context = {.programs = programs_,
+                                .scene = gpu_scene_,
+                                .uniforms = uniforms_,
+                                .frame = frame,
+                                .width = settings.width,
+                                .height = settings.height},
+                    .camera = camera_view,
+                    .lights = lights,
+                    .gather_frames = gather_frames,
+                    .patterns = patterns,
+                    .target = graph.import_texture("color", color_),
+                    .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});
     graph.execute(timer);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
@@ -146,7 +148,8 @@ Image Renderer::read_color() const {
     const auto height = static_cast<size_t>(image.height);
     std::vector<float> rgba(width * height * 4);
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    glGetTextureImage(color_.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)), rgba.data());
+    glGetTextureImage(color_.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)),
+                      rgba.data());
     for (size_t y = 0; y < height; ++y) {
         const size_t source = (height - 1 - y) * width;
         for (size_t x = 0; x < width; ++x) {
@@ -156,16 +159,18 @@ Image Renderer::read_color() const {
     return image;
 }
 
-CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, const std::string& name, int width,
-                        int height) {
+CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
+                        int width, int height) {
     int node = scene.active_camera_node;
     if (!name.empty()) {
-        const auto found = std::find_if(scene.topological_order.begin(), scene.topological_order.end(), [&](int i) {
-            const scene::Node& candidate = scene.nodes[static_cast<size_t>(i)];
-            return candidate.camera != scene::k_none && candidate.name == name;
-        });
+        const auto found =
+            std::find_if(scene.topological_order.begin(), scene.topological_order.end(), [&](int i) {
+                const scene::Node& candidate = scene.nodes[static_cast<size_t>(i)];
+                return candidate.camera != scene::k_none && candidate.name == name;
+            });
         if (found == scene.topological_order.end()) {
-            throw usage_error(fmt::format("{} has no camera named {}; bounce info lists them", scene.name, name));
+            throw usage_error(
+                fmt::format("{} has no camera named {}; bounce info lists them", scene.name, name));
         }
         node = *found;
     }
@@ -176,7 +181,8 @@ CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, cons
         return {placed.world_from_camera, placed.camera, 1.0};
     }
     const auto index = static_cast<size_t>(node);
-    return {pose.world_from_node[index], pose.cameras[static_cast<size_t>(scene.nodes[index].camera)], pixel_aspect};
+    return {pose.world_from_node[index], pose.cameras[static_cast<size_t>(scene.nodes[index].camera)],
+            pixel_aspect};
 }
 
 }  // namespace bounce

@@ -25,10 +25,10 @@ namespace bounce {
 struct FrameReport {
     std::vector<gl::PassTime> passes;  // empty where timing is off
     std::vector<std::string> executed;
-    std::vector<LeftOut> left_out;     // planned and culled
+    std::vector<LeftOut> left_out;  // planned and culled
     std::vector<std::string> approximations;
     size_t triangles = 0;
-    int rsm_samples = 0;     // a pixel, over all lights
+    int rsm_samples = 0;  // a pixel, over all lights
     int lights = 0;
     int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
 };
@@ -72,7 +72,7 @@ class Renderer {
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.
 // name picks another camera node by its name. Throws usage_error for an unknown name.
-[[nodiscard]] CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
-                                      int width, int height);
+[[nodiscard]] CameraView scene_camera(const scene::Scene& scene, const scene::Pose& pose,
+                                      const std::string& name, int width, int height);
 
 }  // namespace bounce

@@ -3,12 +3,12 @@
 // The frame graph on OpenGL: what runs, what passes may touch, what they share, how they fail.
 #include "frame_graph/frame_graph.h"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "gl_context.h"
@@ -49,7 +49,8 @@ class FrameGraphOnGl : public test::GlTest {
             builder.side_effect();
             return [handle, seen](const PassResources& resources) {
                 std::array<float, 64> texels{};
-                glGetTextureImage(resources.texture(handle).id(), 0, GL_RGBA, GL_FLOAT, sizeof texels, texels.data());
+                glGetTextureImage(resources.texture(handle).id(), 0, GL_RGBA, GL_FLOAT, sizeof texels,
+                                  texels.data());
                 if (seen != nullptr) {
                     *seen = texels[0];
                 }

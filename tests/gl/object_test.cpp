@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Who owns an OpenGL name, and what the objects promise.
-#include <gmock/gmock.h>
-
 #include <array>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "gl/buffer.h"
@@ -100,7 +100,8 @@ TEST_F(GlObjects, AnEmptyBufferIsStillABuffer) {
 
 TEST_F(GlObjects, TextureStorageIsWhatWasDescribed) {
     const Texture flat("flat", {.format = GL_RGBA16F, .width = 7, .height = 5});
-    const Texture array("array", {.format = GL_DEPTH_COMPONENT32F, .width = 8, .height = 8, .layers = 6, .compare = true});
+    const Texture array(
+        "array", {.format = GL_DEPTH_COMPONENT32F, .width = 8, .height = 8, .layers = 6, .compare = true});
     GLint value = 0;
     glGetTextureLevelParameteriv(flat.id(), 0, GL_TEXTURE_WIDTH, &value);
     EXPECT_EQ(value, 7);

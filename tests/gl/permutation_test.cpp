@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every permutation of every shader that a pass may ask for compiles and links, whatever scene comes.
-#include <gmock/gmock.h>
-
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "gl/program.h"
@@ -69,17 +69,20 @@ std::string describe(const Defines& defines) {
 class Permutations : public test::GlTest {
   protected:
     static void compute(const std::string& name, const Defines& defines) {
-        EXPECT_NO_THROW(Program(name, {{GL_COMPUTE_SHADER, "passes/" + name}}, defines)) << name << ' ' << describe(defines);
+        EXPECT_NO_THROW(Program(name, {{GL_COMPUTE_SHADER, "passes/" + name}}, defines))
+            << name << ' ' << describe(defines);
     }
     static void raster(const std::string& fragment, const Defines& defines) {
-        EXPECT_NO_THROW(Program(fragment,
-                                {{GL_VERTEX_SHADER, "passes/geometry.vert"}, {GL_FRAGMENT_SHADER, "passes/" + fragment}},
-                                defines))
+        EXPECT_NO_THROW(
+            Program(fragment,
+                    {{GL_VERTEX_SHADER, "passes/geometry.vert"}, {GL_FRAGMENT_SHADER, "passes/" + fragment}},
+                    defines))
             << fragment << ' ' << describe(defines);
     }
     // What a batch's material may have, as batch_defines() in passes/pass_context.cpp names it.
     static std::vector<std::string> material_switches() {
-        return {"ALPHA_TEST", "BASE_COLOR_TEXTURE", "VERTEX_COLOR", "METALLIC_ROUGHNESS_TEXTURE", "NORMAL_TEXTURE"};
+        return {"ALPHA_TEST", "BASE_COLOR_TEXTURE", "VERTEX_COLOR", "METALLIC_ROUGHNESS_TEXTURE",
+                "NORMAL_TEXTURE"};
     }
 };
 
@@ -134,7 +137,8 @@ TEST_F(Permutations, InterpolationAndViews) {
 TEST_F(Permutations, GBuffer) {
     for (const Defines& material : subsets(material_switches())) {
         raster("gbuffer.frag", material);
-        for (const Defines& emission : subsets({"EMISSION", "EMISSION_TEXTURE"}, with(material, {"WRITE_EMISSION"}))) {
+        for (const Defines& emission :
+             subsets({"EMISSION", "EMISSION_TEXTURE"}, with(material, {"WRITE_EMISSION"}))) {
             raster("gbuffer.frag", emission);
         }
     }
@@ -161,9 +165,10 @@ TEST_F(Permutations, ShadowMap) {
 
 TEST_F(Permutations, Display) {
     for (const Defines& defines : subsets({"LATTICE"})) {
-        EXPECT_NO_THROW(Program("display",
-                                {{GL_VERTEX_SHADER, "passes/display.vert"}, {GL_FRAGMENT_SHADER, "passes/display.frag"}},
-                                defines))
+        EXPECT_NO_THROW(
+            Program("display",
+                    {{GL_VERTEX_SHADER, "passes/display.vert"}, {GL_FRAGMENT_SHADER, "passes/display.frag"}},
+                    defines))
             << describe(defines);
     }
 }

@@ -3,15 +3,15 @@
 // Shader files: packed, included, and named where they fail.
 #include "gl/shader_source.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "gl/program.h"
@@ -78,7 +78,8 @@ TEST_F(ShaderFolder, VersionThenDefinesThenTheFile) {
     write("lib/b.glsl", "included\n");
     const ShaderSource source = load_shader("a.comp", {{"SIZE", "8"}, {"FAST", "1"}});
     EXPECT_EQ(source.text,
-              "#version 450 core\n#define FAST 1\n#define SIZE 8\n#line 1 0\nfirst\n#line 1 1\nincluded\n#line 3 0\nlast\n");
+              "#version 450 core\n#define FAST 1\n#define SIZE 8\n#line 1 0\nfirst\n#line 1 "
+              "1\nincluded\n#line 3 0\nlast\n");
     EXPECT_THAT(source.files, ElementsAre("a.comp", "lib/b.glsl"));
 }
 
@@ -93,25 +94,31 @@ TEST_F(ShaderFolder, AFileIncludedTwiceKeepsItsNumber) {
 TEST_F(ShaderFolder, AnErrorNamesFileAndLine) {
     write("good.comp", "layout(local_size_x = 1) in;\nvoid main() {\n    no_such_function();\n}\n");
     EXPECT_THAT([] { compile("good.comp"); },
-                ThrowsMessage<Error>(AllOf(HasSubstr("good.comp does not compile"), ContainsRegex("good.comp[:(]3"))));
+                ThrowsMessage<Error>(
+                    AllOf(HasSubstr("good.comp does not compile"), ContainsRegex("good.comp[:(]3"))));
 }
 
 TEST_F(ShaderFolder, AnErrorInAnIncludedFileNamesThatFile) {
-    write("a.comp", "#include \"lib/good.glsl\"\n#include \"lib/broken.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+    write("a.comp",
+          "#include \"lib/good.glsl\"\n#include \"lib/broken.glsl\"\nlayout(local_size_x = 1) in;\nvoid "
+          "main() {}\n");
     write("lib/good.glsl", "const float fine = 1.0;\n");
     write("lib/broken.glsl", "\n\nfloat f() { return no_such_name; }\n");
     EXPECT_THAT([] { compile("a.comp"); },
-                ThrowsMessage<Error>(AllOf(ContainsRegex("lib/broken.glsl[:(]3"), Not(ContainsRegex("lib/good.glsl[:(]")))));
+                ThrowsMessage<Error>(
+                    AllOf(ContainsRegex("lib/broken.glsl[:(]3"), Not(ContainsRegex("lib/good.glsl[:(]")))));
 }
 
 TEST_F(ShaderFolder, AnErrorAfterAnIncludeHasTheLineOfItsOwnFile) {
-    write("a.comp", "#include \"b.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n    no_such_function();\n}\n");
+    write("a.comp",
+          "#include \"b.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n    no_such_function();\n}\n");
     write("b.glsl", "const float b = 1.0;\n\n\n\n\n");
     EXPECT_THAT([] { compile("a.comp"); }, ThrowsMessage<Error>(ContainsRegex("a.comp[:(]4")));
 }
 
 TEST_F(ShaderFolder, DefinesReachTheShader) {
-    write("a.comp", "layout(local_size_x = GROUP) in;\n#ifndef SWITCH\n#error no switch\n#endif\nvoid main() {}\n");
+    write("a.comp",
+          "layout(local_size_x = GROUP) in;\n#ifndef SWITCH\n#error no switch\n#endif\nvoid main() {}\n");
     EXPECT_TRUE(compile("a.comp", {{"GROUP", "4"}, {"SWITCH", "1"}}));
     EXPECT_THAT([] { compile("a.comp", {{"GROUP", "4"}}); }, ThrowsMessage<Error>(HasSubstr("no switch")));
 }
@@ -130,13 +137,16 @@ TEST_F(ShaderFolder, AFileThatIncludesItselfIsRefused) {
 TEST_F(ShaderFolder, AProgramThatDoesNotLinkIsNamed) {
     write("a.vert", "out vec3 color;\nvoid main() { color = vec3(1.0); gl_Position = vec4(0.0); }\n");
     write("a.frag", "in vec4 color;\nout vec4 picture;\nvoid main() { picture = color; }\n");
-    EXPECT_THAT([] { const Program p("odd pair", {{GL_VERTEX_SHADER, "a.vert"}, {GL_FRAGMENT_SHADER, "a.frag"}}, {}); },
-                ThrowsMessage<Error>(HasSubstr("odd pair does not link")));
+    EXPECT_THAT(
+        [] {
+            const Program p("odd pair", {{GL_VERTEX_SHADER, "a.vert"}, {GL_FRAGMENT_SHADER, "a.frag"}}, {});
+        },
+        ThrowsMessage<Error>(HasSubstr("odd pair does not link")));
 }
 
 TEST(NameFilesInLog, OnlyNumbersAtTheStartThatStandForFiles) {
     const std::vector<std::string> files = {"a.comp", "lib/b.glsl"};
-    EXPECT_EQ(name_files_in_log("1:3(5): error: x", files), "lib/b.glsl:3(5): error: x\n");      // Mesa
+    EXPECT_EQ(name_files_in_log("1:3(5): error: x", files), "lib/b.glsl:3(5): error: x\n");          // Mesa
     EXPECT_EQ(name_files_in_log("0(12) : error C1008: y", files), "a.comp(12) : error C1008: y\n");  // NVIDIA
     EXPECT_EQ(name_files_in_log("7:3(5): error", files), "7:3(5): error\n");
     EXPECT_EQ(name_files_in_log("3 errors\n0:1: z", files), "3 errors\na.comp:1: z\n");

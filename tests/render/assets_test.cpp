@@ -57,7 +57,8 @@ Settings small_settings() {
 Image render(Renderer& renderer, const scene::Scene& scene, const scene::Pose& pose) {
     renderer.render(pose, scene_camera(scene, pose, {}, k_width, k_height), small_settings());
     Image image = renderer.read_color();
-    EXPECT_TRUE(std::all_of(image.rgb.begin(), image.rgb.end(), [](float value) { return std::isfinite(value); }));
+    EXPECT_TRUE(
+        std::all_of(image.rgb.begin(), image.rgb.end(), [](float value) { return std::isfinite(value); }));
     return image;
 }
 
@@ -95,8 +96,9 @@ Outcome render_at_two_times(const scene::Scene& scene) {
     Outcome outcome;
     Renderer renderer(scene);
     const int animation = scene::default_animation(scene);
-    const double duration =
-        animation >= 0 && static_cast<size_t>(animation) < scene.animations.size() ? scene.animations[static_cast<size_t>(animation)].duration_s : 1.0;
+    const double duration = animation >= 0 && static_cast<size_t>(animation) < scene.animations.size()
+                                ? scene.animations[static_cast<size_t>(animation)].duration_s
+                                : 1.0;
     for (const double time : {0.0, 0.37 * duration}) {
         const scene::Pose pose = scene::evaluate_pose(scene, time, animation);
         outcome.black &= mean(render(renderer, scene, pose)) <= 0.0;
@@ -129,7 +131,8 @@ TEST_P(Assets, LoadAndAreSeen) {
             const scene::LoadResult loaded = scene::load_gltf(path);
             EXPECT_EQ(refused, k_refused.end()) << "loads now: take it off the list of refused files";
             const Outcome outcome = render_at_two_times(loaded.scene);
-            EXPECT_EQ(outcome.coverage > 20, !k_unseen.contains(name)) << outcome.coverage << " pixels show a surface";
+            EXPECT_EQ(outcome.coverage > 20, !k_unseen.contains(name))
+                << outcome.coverage << " pixels show a surface";
             EXPECT_EQ(outcome.black, k_black.contains(name));
         } catch (const Error& error) {
             if (refused == k_refused.end()) {
@@ -143,7 +146,8 @@ TEST_P(Assets, LoadAndAreSeen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, Assets,
-                         ::testing::Values("animated", "compressed", "gi-bitterli", "gi-mcguire", "gi-misc", "gi-webxr", "khronos"),
+                         ::testing::Values("animated", "compressed", "gi-bitterli", "gi-mcguire", "gi-misc",
+                                           "gi-webxr", "khronos"),
                          [](const auto& folder) {
                              std::string name = folder.param;
                              std::erase(name, '-');
@@ -167,7 +171,8 @@ TEST(FaultyAssets, AreRefusedByNameOrDrawn) {
             ++drawn;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::input_refused) << error.what();
-            EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos)
+                << error.what();
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
             ++refused;
         } catch (const std::exception& error) {

@@ -42,8 +42,8 @@ TEST_F(ExecutedPasses, SpotWithInterpolatedRsm) {
     scene::Scene scene = floor();
     add_light(scene, spot(), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 2.0)));
     EXPECT_EQ(run(scene, {}),
-              (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "rsm: Spot", "rsm gather, low resolution",
-                      "rsm interpolate", "rsm gather, rest", "composite"}));
+              (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "rsm: Spot",
+                      "rsm gather, low resolution", "rsm interpolate", "rsm gather, rest", "composite"}));
 }
 
 TEST_F(ExecutedPasses, DirectOnlyHasNoRsm) {
@@ -51,7 +51,8 @@ TEST_F(ExecutedPasses, DirectOnlyHasNoRsm) {
     add_light(scene, spot(), glm::dmat4(1.0));
     Settings settings;
     settings.technique = Technique::direct;
-    EXPECT_EQ(run(scene, settings), (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "composite"}));
+    EXPECT_EQ(run(scene, settings),
+              (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "composite"}));
 }
 
 TEST_F(ExecutedPasses, IndirectOnlyHasNoShadowMap) {

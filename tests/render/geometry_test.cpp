@@ -44,13 +44,15 @@ class Geometry : public ::testing::Test {
                 }
             }
         }
-        return {x / count * width, y / count * width, count / (static_cast<double>(image.width) * image.height)};
+        return {x / count * width, y / count * width,
+                count / (static_cast<double>(image.width) * image.height)};
     }
 };
 
 TEST_F(Geometry, OrthographicCameraPlacesASquare) {
     scene::Scene scene = lit_scene();
-    add_mesh_node(scene, add_square(scene, 1.0F, add_diffuse(scene)), glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, -0.5, 0.0)));
+    add_mesh_node(scene, add_square(scene, 1.0F, add_diffuse(scene)),
+                  glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, -0.5, 0.0)));
     const Blob b = blob(draw(scene, camera_from_above(4.0, 10.0), settings(200)).image, 4.0);
     EXPECT_NEAR(b.x, 1.0, 0.02);
     EXPECT_NEAR(b.y, -0.5, 0.02);
@@ -85,10 +87,12 @@ TEST_F(Geometry, MirroredAndSingleSided) {
     // behind is culled in files that are not Blender's.
     scene::Scene scene = lit_scene();
     const int material = add_diffuse(scene);
-    add_mesh_node(scene, add_square(scene, 1.0F, material), glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0)));
+    add_mesh_node(scene, add_square(scene, 1.0F, material),
+                  glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0)));
     scene.materials[static_cast<size_t>(material)].double_sided = false;
     scene.from_blender = false;
-    EXPECT_NEAR(blob(draw(scene, camera_from_above(4.0, 10.0), settings(100)).image, 4.0).share, 1.0 / 16.0, 3e-3);
+    EXPECT_NEAR(blob(draw(scene, camera_from_above(4.0, 10.0), settings(100)).image, 4.0).share, 1.0 / 16.0,
+                3e-3);
     scene.nodes.back().matrix = glm::rotate(glm::dmat4(1.0), pi, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(draw(scene, camera_from_above(4.0, 10.0), settings(100)).mean(), 0.0);
 }
@@ -137,8 +141,9 @@ TEST_F(Geometry, MorphTargetsAddUp) {
 TEST_F(Geometry, SmoothNormalsOfAScaledMeshStayRight) {
     // Seen from above, a floor under non-uniform scale keeps its normal: radiance is that of a facing plane.
     scene::Scene scene = lit_scene();
-    add_mesh_node(scene, add_square(scene, 1.0F, add_diffuse(scene)),
-                  glm::scale(glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(0.0, 1.0, 0.0)), glm::dvec3(3.0, 2.0, 0.1)));
+    add_mesh_node(
+        scene, add_square(scene, 1.0F, add_diffuse(scene)),
+        glm::scale(glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(0.0, 1.0, 0.0)), glm::dvec3(3.0, 2.0, 0.1)));
     const Rendered r = draw(scene, camera_from_above(4.0, 10.0), settings(51));
     EXPECT_NEAR(r.at(25, 25).x, std::cos(0.3), 1e-3);
 }

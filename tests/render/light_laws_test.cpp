@@ -53,7 +53,8 @@ TEST_F(LightLaws, Point) {
         const double x = dx * 6.5 / k_size;
         const double d2 = x * x + 9.0;
         const double cosine = 3.0 / std::sqrt(d2);
-        expect_close(r.at(middle + dx, middle).x, 100.0 / (4.0 * pi) * cosine / (pi * d2), "point at x = " + std::to_string(x));
+        expect_close(r.at(middle + dx, middle).x, 100.0 / (4.0 * pi) * cosine / (pi * d2),
+                     "point at x = " + std::to_string(x));
     }
 }
 
@@ -63,7 +64,8 @@ TEST_F(LightLaws, PointWithRadius) {
     light.radius_m = 0.5F;
     const Rendered r = plane_under(light, 3.0, 0.65);
     // Measured in Cycles: 0.973 of the point.
-    expect_close(r.at(k_size / 2, k_size / 2).x, 0.973 * 100.0 / (4.0 * pi) / (pi * 9.0), "radius 0.5 at 3 m");
+    expect_close(r.at(k_size / 2, k_size / 2).x, 0.973 * 100.0 / (4.0 * pi) / (pi * 9.0),
+                 "radius 0.5 at 3 m");
 }
 
 TEST_F(LightLaws, Sun) {
@@ -82,14 +84,46 @@ struct SpotProfileCase {
 
 TEST_F(LightLaws, SpotProfilesMeasuredInCycles) {
     const std::vector<SpotProfileCase> cases = {
-        {0.0, {{5, .99619}, {10, .98481}, {15, .96593}, {20, .93969}, {24, .91355}, {26, .89880}, {28, .88295},
-               {29, .87462}, {29.5, .87036}}},
-        {0.15, {{5, .99619}, {10, .98481}, {15, .96593}, {20, .93969}, {24, .91355}, {26, .8988}, {28, .82384},
-                {29, .34308}, {29.5, .10383}}},
-        {0.5, {{5, .99619}, {10, .98481}, {15, .96593}, {20, .93969}, {24, .72693}, {26, .43481}, {28, .14057},
-               {29, .03983}, {29.5, .01095}}},
-        {1.0, {{5, .99383}, {10, .94969}, {15, .81027}, {20, .53989}, {24, .26327}, {26, .13501}, {28, .03871},
-               {29, .01079}, {29.5, .00253}}},
+        {0.0,
+         {{5, .99619},
+          {10, .98481},
+          {15, .96593},
+          {20, .93969},
+          {24, .91355},
+          {26, .89880},
+          {28, .88295},
+          {29, .87462},
+          {29.5, .87036}}},
+        {0.15,
+         {{5, .99619},
+          {10, .98481},
+          {15, .96593},
+          {20, .93969},
+          {24, .91355},
+          {26, .8988},
+          {28, .82384},
+          {29, .34308},
+          {29.5, .10383}}},
+        {0.5,
+         {{5, .99619},
+          {10, .98481},
+          {15, .96593},
+          {20, .93969},
+          {24, .72693},
+          {26, .43481},
+          {28, .14057},
+          {29, .03983},
+          {29.5, .01095}}},
+        {1.0,
+         {{5, .99383},
+          {10, .94969},
+          {15, .81027},
+          {20, .53989},
+          {24, .26327},
+          {26, .13501},
+          {28, .03871},
+          {29, .01079},
+          {29.5, .00253}}},
     };
     constexpr double height = 3.0;
     for (const SpotProfileCase& test : cases) {
@@ -115,18 +149,23 @@ TEST_F(LightLaws, SpotProfilesMeasuredInCycles) {
             const double cosine = std::cos(angle);
             const double expected = axis * profile * cosine * cosine * cosine;
             // Where a blend has almost ended, Cycles' own values scatter with the size of the frame they are
-            // measured in by up to 1e-3 of the axis (tests/cycles/measure_lights.py at 0.4 mm and 4 cm: .01010
-            // and .01116 at 29.5 degrees, blend 0.5); the law lies between them.
+            // measured in by up to 1e-3 of the axis (tests/cycles/measure_lights.py at 0.4 mm and 4 cm:
+            // .01010 and .01116 at 29.5 degrees, blend 0.5); the law lies between them.
             const double scatter = 6e-4 / profile;
             EXPECT_NEAR(r.at(k_size / 2, k_size / 2).x / expected, 1.0, k_tolerance + scatter)
                 << "blend " << test.blend << " at " << degrees << " degrees";
-            const double t = test.blend > 0.0 ? std::clamp((cosine - std::cos(pi / 6.0)) / ((1.0 - std::cos(pi / 6.0)) * test.blend), 0.0, 1.0) : 1.0;
+            const double t =
+                test.blend > 0.0
+                    ? std::clamp((cosine - std::cos(pi / 6.0)) / ((1.0 - std::cos(pi / 6.0)) * test.blend),
+                                 0.0, 1.0)
+                    : 1.0;
             const double law = axis * cosine * t * t * (3.0 - 2.0 * t) * cosine * cosine * cosine;
             expect_close(r.at(k_size / 2, k_size / 2).x, law, "law at " + std::to_string(degrees));
         }
         scene::Light beyond = light;
         const Rendered r = plane_under(beyond, height, 4.2);
-        const int outside = k_size / 2 + static_cast<int>(height * std::tan(31.0 * pi / 180.0) / 4.2 * k_size) + 1;
+        const int outside =
+            k_size / 2 + static_cast<int>(height * std::tan(31.0 * pi / 180.0) / 4.2 * k_size) + 1;
         EXPECT_EQ(r.at(outside, k_size / 2).x, 0.0) << "nothing beyond the cone";
     }
 }
@@ -140,7 +179,8 @@ TEST_F(LightLaws, WideSpotUsesACubeAndTheSameLaw) {
     const double x = 20 * 6.5 / k_size;
     const double d2 = x * x + 9.0;
     const double cosine = 3.0 / std::sqrt(d2);
-    expect_close(r.at(k_size / 2 + 20, k_size / 2).x, 100.0 / (4.0 * pi) * cosine * cosine / (pi * d2), "170 degree spot");
+    expect_close(r.at(k_size / 2 + 20, k_size / 2).x, 100.0 / (4.0 * pi) * cosine * cosine / (pi * d2),
+                 "170 degree spot");
 }
 
 TEST_F(LightLaws, AreaLightsOnAxisAndFar) {
@@ -151,16 +191,17 @@ TEST_F(LightLaws, AreaLightsOnAxisAndFar) {
         light.power_w = 100.0F;
         light.shape = shape;
         light.size_x_m = 0.05F;
-        light.size_y_m = shape == scene::AreaShape::rectangle || shape == scene::AreaShape::ellipse ? 0.1F : 0.05F;
+        light.size_y_m =
+            shape == scene::AreaShape::rectangle || shape == scene::AreaShape::ellipse ? 0.1F : 0.05F;
         expect_close(plane_under(light, 10.0, 0.5).at(k_size / 2, k_size / 2).x, 100.0 / (4.0 * pi * 100.0),
                      "area shape " + std::to_string(static_cast<int>(shape)));
     }
 }
 
 TEST_F(LightLaws, AreaSpreadProfileMeasuredInCycles) {
-    // Values relative to an unspread light's cosine law. 2.5 %: they were measured with a light of finite size
-    // and are noisy (on the axis 10.63 and, with a smaller light, 10.72, where the law has 10.74; at 50 degrees
-    // .771 and .783 against .789).
+    // Values relative to an unspread light's cosine law. 2.5 %: they were measured with a light of finite
+    // size and are noisy (on the axis 10.63 and, with a smaller light, 10.72, where the law has 10.74; at 50
+    // degrees .771 and .783 against .789).
     const std::vector<std::pair<double, std::vector<std::pair<double, double>>>> cases = {
         {120.0, {{0, 2.509}, {10, 2.255}, {20, 1.982}, {30, 1.668}, {40, 1.284}, {50, .771}}},
         {60.0, {{0, 10.63}, {10, 7.41}, {20, 3.94}}},
@@ -194,21 +235,24 @@ TEST_F(LightLaws, ScaleMovesAndPowersChangeNothingElse) {
         scene::Light scaled = light;
         scaled.power_w = static_cast<float>(100.0 * scale * scale);
         const Rendered r = plane_under(scaled, 3.0, 6.5, scale);
-        EXPECT_NEAR(r.at(middle + 20, middle).x / base.at(middle + 20, middle).x, 1.0, 1e-3) << "scale " << scale;
+        EXPECT_NEAR(r.at(middle + 20, middle).x / base.at(middle + 20, middle).x, 1.0, 1e-3)
+            << "scale " << scale;
     }
     const Rendered moved = plane_under(light, 3.0, 6.5, 1.0, {1e6, -1e6, 1e6});
-    EXPECT_NEAR(moved.at(middle + 20, middle).x / base.at(middle + 20, middle).x, 1.0, 1e-3) << "a million metres away";
+    EXPECT_NEAR(moved.at(middle + 20, middle).x / base.at(middle + 20, middle).x, 1.0, 1e-3)
+        << "a million metres away";
     for (const float factor : {1e-6F, 1e6F}) {
         scene::Light strong = light;
         strong.power_w *= factor;
-        EXPECT_NEAR(plane_under(strong, 3.0, 6.5).at(middle, middle).x / base.at(middle, middle).x / factor, 1.0, 1e-5);
+        EXPECT_NEAR(plane_under(strong, 3.0, 6.5).at(middle, middle).x / base.at(middle, middle).x / factor,
+                    1.0, 1e-5);
     }
 }
 
 TEST_F(LightLaws, DisneyDiffuseMeasuredInCycles) {
     // Factor over Lambert, seen from straight above, sun at an angle.
     const std::vector<std::tuple<float, double, double>> values = {
-        {0.0F, 0, 1.0},  {0.0F, 60, 0.984}, {0.0F, 80, 0.807}, {0.5F, 60, 1.008}, {0.5F, 80, 1.034},
+        {0.0F, 0, 1.0},    {0.0F, 60, 0.984}, {0.0F, 80, 0.807}, {0.5F, 60, 1.008}, {0.5F, 80, 1.034},
         {0.9F, 60, 1.027}, {0.9F, 80, 1.214}, {1.0F, 60, 1.031}, {1.0F, 80, 1.260}};
     for (const auto& [roughness, degrees, factor] : values) {
         scene::Scene scene;
@@ -223,7 +267,8 @@ TEST_F(LightLaws, DisneyDiffuseMeasuredInCycles) {
         const double angle = degrees * pi / 180.0;
         add_light(scene, sun, glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0.0, 1.0, 0.0)));
         const Rendered r = draw(scene, camera_from_above(1.0, 50.0), direct_settings());
-        EXPECT_NEAR(r.at(k_size / 2, k_size / 2).x / (std::cos(angle) / pi), factor, 0.005) << roughness << ", " << degrees;
+        EXPECT_NEAR(r.at(k_size / 2, k_size / 2).x / (std::cos(angle) / pi), factor, 0.005)
+            << roughness << ", " << degrees;
     }
 }
 

@@ -3,14 +3,14 @@
 // Scenes made of numbers, and one OpenGL context a process to draw them with.
 #pragma once
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include "gl/context.h"
 #include "renderer/renderer.h"
@@ -21,7 +21,8 @@ namespace bounce::test {
 
 inline constexpr double pi = std::numbers::pi;
 
-// A test binary that finds no OpenGL fails: software GL is one of the packages that scripts/install_deps lists.
+// A test binary that finds no OpenGL fails: software GL is one of the packages that scripts/install_deps
+// lists.
 inline void require_context() {
     static const gl::HeadlessContext context;
     static const gl::DeviceInfo device = gl::initialise_current_context();
@@ -105,7 +106,8 @@ struct Rendered {
     }
 };
 
-inline Rendered draw(const scene::Scene& scene, const CameraView& camera, const Settings& settings, double time_s = 0.0) {
+inline Rendered draw(const scene::Scene& scene, const CameraView& camera, const Settings& settings,
+                     double time_s = 0.0) {
     Renderer renderer(scene);
     const scene::Pose pose = scene::evaluate_pose(scene, time_s);
     Rendered out;

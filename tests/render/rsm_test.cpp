@@ -31,8 +31,8 @@ scene::Scene corner_scene() {
 
 CameraView corner_camera() {
     CameraView view;
-    view.world_from_camera =
-        glm::inverse(glm::lookAt(glm::dvec3(4.0, -3.0, 4.0), glm::dvec3(-0.7, 0.0, 0.8), glm::dvec3(0.0, 0.0, 1.0)));
+    view.world_from_camera = glm::inverse(
+        glm::lookAt(glm::dvec3(4.0, -3.0, 4.0), glm::dvec3(-0.7, 0.0, 0.8), glm::dvec3(0.0, 0.0, 1.0)));
     view.camera.yfov_rad = 0.9F;
     view.camera.near_m = 0.01F;
     view.camera.far_m = 100.0F;
@@ -96,19 +96,20 @@ TEST_F(Rsm, SampledGatherHasTheEnergyOfTheFullSum) {
 }
 
 TEST_F(Rsm, PaperLiteralWeightsLoseEnergy) {
-    // What docs/papers/reflective_shadow_maps.md says of eq. 3 with weights xi1^2; if this ever passes at 1 %,
-    // the note and the default are out of date.
+    // What docs/papers/reflective_shadow_maps.md says of eq. 3 with weights xi1^2; if this ever passes at 1
+    // %, the note and the default are out of date.
     scene::Scene scene = corner_scene();
     add_light(scene, light_of(scene::LightType::spot), cases()[0].world_from_light);
     Settings exact = small(1024);
     Settings literal = exact;
     literal.rsm_pattern = passes::RsmPattern::paper_literal;
-    EXPECT_LT(draw(scene, corner_camera(), literal).mean(), 0.97 * draw(scene, corner_camera(), exact).mean());
+    EXPECT_LT(draw(scene, corner_camera(), literal).mean(),
+              0.97 * draw(scene, corner_camera(), exact).mean());
 }
 
 TEST_F(Rsm, SpotOnSmallPatchIsOnePixelLight) {
-    // A narrow spot lights a patch of the wall at distance 2; seen from the floor, that is one pixel light with
-    // flux rho P/(4 pi) * solid angle, and eq. 1 over pi can be written down.
+    // A narrow spot lights a patch of the wall at distance 2; seen from the floor, that is one pixel light
+    // with flux rho P/(4 pi) * solid angle, and eq. 1 over pi can be written down.
     scene::Scene scene = corner_scene();
     scene::Light spot = light_of(scene::LightType::spot);
     spot.cone_angle_rad = 0.02F;
@@ -140,7 +141,8 @@ TEST_F(Rsm, FluxKeepsItsDigitsFromMicrowattsToMegawatts) {
             scene::Scene scaled = scene;
             scaled.lights[0].power_w *= factor;
             scaled.lights[0].irradiance_w_m2 *= factor;
-            EXPECT_NEAR(draw(scaled, corner_camera(), small(112)).mean() / base / factor, 1.0, 1e-4) << test.name;
+            EXPECT_NEAR(draw(scaled, corner_camera(), small(112)).mean() / base / factor, 1.0, 1e-4)
+                << test.name;
         }
     }
 }
@@ -179,8 +181,8 @@ TEST_F(Rsm, InterpolationStaysNearTheFullGather) {
     EXPECT_NEAR(b.mean() / a.mean(), 1.0, 0.005);
     EXPECT_GT(b.report.gathered_pixels, 0) << "the corner cannot be interpolated";
     EXPECT_LT(b.report.gathered_pixels, 384 * 256 / 4) << "most of two flat walls can";
-    // Mean difference: 2 % of the mean. Worst pixel: two thirds of the brightest, because along the crease itself
-    // light more than halves within one low-resolution cell, which a bilinear mean cannot follow.
+    // Mean difference: 2 % of the mean. Worst pixel: two thirds of the brightest, because along the crease
+    // itself light more than halves within one low-resolution cell, which a bilinear mean cannot follow.
     double worst = 0.0;
     double sum = 0.0;
     for (size_t i = 0; i < a.image.rgb.size(); ++i) {
@@ -189,20 +191,22 @@ TEST_F(Rsm, InterpolationStaysNearTheFullGather) {
         sum += difference;
     }
     EXPECT_LT(sum / static_cast<double>(a.image.rgb.size()), 0.02 * a.mean());
-    EXPECT_LT(worst, static_cast<double>(*std::max_element(a.image.rgb.begin(), a.image.rgb.end())) * 2.0 / 3.0);
+    EXPECT_LT(worst,
+              static_cast<double>(*std::max_element(a.image.rgb.begin(), a.image.rgb.end())) * 2.0 / 3.0);
 }
 
 TEST_F(Rsm, ConvexClosedBoxGainsWhatTheFirstBounceCarries) {
-    // A closed white box (albedo 0.5) with a point light in its middle: no occlusion anywhere, so the irradiance
-    // of the first bounce, averaged over the walls, is exactly albedo times the direct one. Averaged here over
-    // one wall by symmetry of the cube.
+    // A closed white box (albedo 0.5) with a point light in its middle: no occlusion anywhere, so the
+    // irradiance of the first bounce, averaged over the walls, is exactly albedo times the direct one.
+    // Averaged here over one wall by symmetry of the cube.
     scene::Scene scene;
     scene.from_blender = true;
     const int square = add_square(scene, 2.0F, add_diffuse(scene, glm::vec3(0.5F)));
-    const double turns[6][4] = {{0, 1, 0, 0},   {180, 1, 0, 0},  {90, 1, 0, 0},
-                                {-90, 1, 0, 0}, {90, 0, 1, 0}, {-90, 0, 1, 0}};
+    const double turns[6][4] = {{0, 1, 0, 0},   {180, 1, 0, 0}, {90, 1, 0, 0},
+                                {-90, 1, 0, 0}, {90, 0, 1, 0},  {-90, 0, 1, 0}};
     for (const auto& turn : turns) {
-        const glm::dmat4 rotation = glm::rotate(glm::dmat4(1.0), turn[0] * pi / 180.0, glm::dvec3(turn[1], turn[2], turn[3]));
+        const glm::dmat4 rotation =
+            glm::rotate(glm::dmat4(1.0), turn[0] * pi / 180.0, glm::dvec3(turn[1], turn[2], turn[3]));
         add_mesh_node(scene, square, rotation * glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -1.0)));
     }
     add_light(scene, light_of(scene::LightType::point), glm::dmat4(1.0));

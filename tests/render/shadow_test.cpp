@@ -10,15 +10,17 @@ class Shadows : public ::testing::Test {
   protected:
     void SetUp() override { require_context(); }
 
-    // A floor of 4 m with a square of 1 m floating 0.5 m over its middle; camera sees the floor from below the
-    // square's level, straight down, through nothing: the square is seen too.
-    static scene::Scene scene_with(const scene::Light& light, const glm::dmat4& world_from_light, bool occluder) {
+    // A floor of 4 m with a square of 1 m floating 0.5 m over its middle; camera sees the floor from below
+    // the square's level, straight down, through nothing: the square is seen too.
+    static scene::Scene scene_with(const scene::Light& light, const glm::dmat4& world_from_light,
+                                   bool occluder) {
         scene::Scene scene;
         scene.from_blender = true;
         const int material = add_diffuse(scene);
         add_mesh_node(scene, add_square(scene, 4.0F, material), glm::dmat4(1.0));
         if (occluder) {
-            add_mesh_node(scene, add_square(scene, 1.0F, material), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.5)));
+            add_mesh_node(scene, add_square(scene, 1.0F, material),
+                          glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.5)));
         }
         add_light(scene, light, world_from_light);
         return scene;
@@ -51,8 +53,10 @@ TEST_F(Shadows, EveryKindOfMapPutsTheShadowInTheSamePlace) {
         const auto pixel = [](double x) { return static_cast<int>((x + 2.0) / 4.0 * 101.0); };
         const int type_number = static_cast<int>(type);
         EXPECT_EQ(shaded.at(pixel(-0.7), 50).x, 0.0) << "in the shadow, type " << type_number;
-        EXPECT_NEAR(shaded.at(pixel(-1.0), 50).x / lit.at(pixel(-1.0), 50).x, 1.0, 1e-3) << "left of it, type " << type_number;
-        EXPECT_NEAR(shaded.at(pixel(0.8), 50).x / lit.at(pixel(0.8), 50).x, 1.0, 1e-3) << "right of it, type " << type_number;
+        EXPECT_NEAR(shaded.at(pixel(-1.0), 50).x / lit.at(pixel(-1.0), 50).x, 1.0, 1e-3)
+            << "left of it, type " << type_number;
+        EXPECT_NEAR(shaded.at(pixel(0.8), 50).x / lit.at(pixel(0.8), 50).x, 1.0, 1e-3)
+            << "right of it, type " << type_number;
     }
 }
 
@@ -61,7 +65,8 @@ TEST_F(Shadows, ASunPutsItWhereItsRaysGo) {
     const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), 0.25 * pi, glm::dvec3(0.0, 1.0, 0.0));
     const CameraView camera = camera_from_above(4.0, 10.0);
     const Rendered lit = draw(scene_with(light_of(scene::LightType::sun), tilted, false), camera, settings());
-    const Rendered shaded = draw(scene_with(light_of(scene::LightType::sun), tilted, true), camera, settings());
+    const Rendered shaded =
+        draw(scene_with(light_of(scene::LightType::sun), tilted, true), camera, settings());
     const auto pixel = [](double x) { return static_cast<int>((x + 2.0) / 4.0 * 101.0); };
     EXPECT_EQ(shaded.at(pixel(-0.75), 50).x, 0.0);
     EXPECT_NEAR(shaded.at(pixel(-1.1), 50).x / lit.at(pixel(-1.1), 50).x, 1.0, 1e-3);
@@ -82,11 +87,14 @@ TEST_F(Shadows, AFarClipPlaneAndADomeOfKilometresChangeNothing) {
             add_mesh_node(scene, square, glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.0, 0.0)));
         }
         const Rendered got = draw(scene, far_camera, settings());
-        // Nearly every pixel: along the shadow's edge the map's texels may fall a little differently, and positions
-        // are rounded to a float of twenty kilometres (a millimetre).
+        // Nearly every pixel: along the shadow's edge the map's texels may fall a little differently, and
+        // positions are rounded to a float of twenty kilometres (a millimetre).
         int wrong = 0;
         for (size_t i = 0; i < got.image.rgb.size(); i += 3) {
-            wrong += std::abs(got.image.rgb[i] - expected.image.rgb[i]) > 0.01F * std::abs(expected.image.rgb[i]) ? 1 : 0;
+            wrong +=
+                std::abs(got.image.rgb[i] - expected.image.rgb[i]) > 0.01F * std::abs(expected.image.rgb[i])
+                    ? 1
+                    : 0;
         }
         EXPECT_LT(wrong, 101 * 101 / 50) << "type " << static_cast<int>(type);
     }
@@ -97,7 +105,8 @@ TEST_F(Shadows, SmoothShadingDoesNotShadowItself) {
     // the light does to the shading, the flat floor throws no shadow on itself.
     for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
         scene::Light light = light_of(type);
-        const glm::dmat4 at = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(2.0, 0.0, 2.5)), 0.6, glm::dvec3(0.0, 1.0, 0.0));
+        const glm::dmat4 at = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(2.0, 0.0, 2.5)), 0.6,
+                                          glm::dvec3(0.0, 1.0, 0.0));
         scene::Scene scene = scene_with(light, at, false);
         scene.meshes[0].primitives[0].normals.assign(4, glm::vec3(0.0F, 0.5F, 0.866F));
         const CameraView camera = camera_from_above(4.0, 10.0);
@@ -110,12 +119,13 @@ TEST_F(Shadows, SmoothShadingDoesNotShadowItself) {
 }
 
 TEST_F(Shadows, NothingShadowsItself) {
-    // One floor and no occluder: at every incidence and for every kind of map the picture equals the one without
-    // shadows. 1e-6: the same arithmetic but for the shadow's factor.
+    // One floor and no occluder: at every incidence and for every kind of map the picture equals the one
+    // without shadows. 1e-6: the same arithmetic but for the shadow's factor.
     for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
         for (const double degrees : {0.0, 30.0, 60.0, 80.0, 87.0}) {
             scene::Light light = light_of(type);
-            const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), degrees * pi / 180.0, glm::dvec3(0.0, 1.0, 0.0));
+            const glm::dmat4 tilted =
+                glm::rotate(glm::dmat4(1.0), degrees * pi / 180.0, glm::dvec3(0.0, 1.0, 0.0));
             const glm::dmat4 at = glm::translate(tilted, glm::dvec3(0.0, 0.0, 3.0));
             const CameraView camera = camera_from_above(4.0, 10.0);
             const Rendered with_shadow = draw(scene_with(light, at, false), camera, settings());
@@ -123,7 +133,10 @@ TEST_F(Shadows, NothingShadowsItself) {
             const Rendered without = draw(scene_with(light, at, false), camera, settings());
             int wrong = 0;
             for (size_t i = 0; i < without.image.rgb.size(); ++i) {
-                wrong += std::abs(with_shadow.image.rgb[i] - without.image.rgb[i]) > 1e-6F * without.image.rgb[i] ? 1 : 0;
+                wrong +=
+                    std::abs(with_shadow.image.rgb[i] - without.image.rgb[i]) > 1e-6F * without.image.rgb[i]
+                        ? 1
+                        : 0;
             }
             EXPECT_EQ(wrong, 0) << "type " << static_cast<int>(type) << " at " << degrees << " degrees";
         }
@@ -131,8 +144,12 @@ TEST_F(Shadows, NothingShadowsItself) {
 }
 
 TEST_F(Shadows, AreaLightIsOneSided) {
-    const glm::dmat4 upside_down = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 2.0)), pi, glm::dvec3(1.0, 0.0, 0.0));
-    EXPECT_EQ(draw(scene_with(light_of(scene::LightType::area), upside_down, false), camera_from_above(4.0, 10.0), settings()).mean(), 0.0);
+    const glm::dmat4 upside_down = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 2.0)), pi,
+                                               glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(draw(scene_with(light_of(scene::LightType::area), upside_down, false),
+                   camera_from_above(4.0, 10.0), settings())
+                  .mean(),
+              0.0);
 }
 
 }  // namespace

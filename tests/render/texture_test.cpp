@@ -18,7 +18,8 @@ class Textures : public ::testing::Test {
         scene::Primitive grid;
         for (int y = 0; y <= n; ++y) {
             for (int x = 0; x <= n; ++x) {
-                const glm::vec2 uv(static_cast<float>(x) / static_cast<float>(n), static_cast<float>(y) / static_cast<float>(n));
+                const glm::vec2 uv(static_cast<float>(x) / static_cast<float>(n),
+                                   static_cast<float>(y) / static_cast<float>(n));
                 grid.positions.emplace_back(2.0F * uv - 1.0F, 0.0F);
                 grid.normals.emplace_back(0.0F, 0.0F, 1.0F);
                 grid.uv0.push_back(uv);
@@ -28,7 +29,8 @@ class Textures : public ::testing::Test {
         const auto at = [n](int x, int y) { return static_cast<uint32_t>(y * (n + 1) + x); };
         for (int y = 0; y < n; ++y) {
             for (int x = 0; x < n; ++x) {
-                grid.indices.insert(grid.indices.end(), {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+                grid.indices.insert(grid.indices.end(), {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y),
+                                                         at(x + 1, y + 1), at(x, y + 1)});
             }
         }
         grid.material = material;
@@ -42,7 +44,8 @@ class Textures : public ::testing::Test {
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
                 const bool left = x < size / 2;
-                image.rgba8.insert(image.rgba8.end(), {static_cast<uint8_t>(left ? 255 : 0), 0, static_cast<uint8_t>(left ? 0 : 255), 255});
+                image.rgba8.insert(image.rgba8.end(), {static_cast<uint8_t>(left ? 255 : 0), 0,
+                                                       static_cast<uint8_t>(left ? 0 : 255), 255});
             }
         }
         return image;
@@ -67,8 +70,8 @@ class Textures : public ::testing::Test {
 };
 
 TEST_F(Textures, EveryPixelOfSmallTrianglesHasTheRightLevelOfDetail) {
-    // Half of the texture's red half over the whole grid, hundreds of triangles about a pixel large: a pixel whose
-    // level of detail were wrong would have some of the blue half in it.
+    // Half of the texture's red half over the whole grid, hundreds of triangles about a pixel large: a pixel
+    // whose level of detail were wrong would have some of the blue half in it.
     scene::TextureRef ref;
     ref.texture = 0;
     ref.uv_transform = glm::mat3(0.2F, 0.0F, 0.0F, 0.0F, 0.2F, 0.0F, 0.05F, 0.05F, 1.0F);
@@ -126,7 +129,8 @@ TEST_F(Textures, AnAlphaTestCutsTheSameHoleIntoPictureAndShadow) {
     for (size_t i = 0; i < scene.images[0].rgba8.size(); i += 4) {
         scene.images[0].rgba8[i + 3] = scene.images[0].rgba8[i];
     }
-    add_mesh_node(scene, add_square(scene, 4.0F, add_diffuse(scene)), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.5)));
+    add_mesh_node(scene, add_square(scene, 4.0F, add_diffuse(scene)),
+                  glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.5)));
     scene::Light sun;
     sun.type = scene::LightType::sun;
     sun.irradiance_w_m2 = static_cast<float>(pi);

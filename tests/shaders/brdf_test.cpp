@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shader_harness.h"
-
 #include <algorithm>
+
+#include "shader_harness.h"
 
 namespace bounce::test {
 namespace {
@@ -12,7 +12,8 @@ class BrdfGlsl : public ShaderTest {
         double disney, fresnel;
     };
     static Value diffuse_fresnel(const glm::vec4& disney, double cos_i, double eta) {
-        const glm::vec4 out = run("diffuse_fresnel.comp", 2, 1, {disney, glm::vec4(glm::dvec4(cos_i, eta, 0.0, 0.0))})[0];
+        const glm::vec4 out =
+            run("diffuse_fresnel.comp", 2, 1, {disney, glm::vec4(glm::dvec4(cos_i, eta, 0.0, 0.0))})[0];
         return {out.x, out.y};
     }
     struct Material {
@@ -72,12 +73,15 @@ TEST_F(BrdfGlsl, DisneyDiffuseAsMeasuredInCycles) {
     // Lambert, measured to three digits.
     const double roughness[] = {0.0, 0.5, 0.9, 1.0};
     const double degrees[] = {0.0, 30.0, 60.0, 80.0};
-    const double measured[4][4] = {{1, 1, .984, .807}, {1, 1, 1.008, 1.034}, {1, 1, 1.027, 1.214}, {1, 1, 1.031, 1.260}};
+    const double measured[4][4] = {
+        {1, 1, .984, .807}, {1, 1, 1.008, 1.034}, {1, 1, 1.027, 1.214}, {1, 1, 1.031, 1.260}};
     for (size_t i = 0; i < 4; ++i) {
         for (size_t j = 0; j < 4; ++j) {
             const double c = std::cos(degrees[j] * pi / 180.0);
-            const double factor = diffuse_fresnel(glm::vec4(glm::dvec4(c, 1.0, c, roughness[i])), 1.0, 1.5).disney;
-            EXPECT_NEAR(factor, measured[i][j], 2e-3) << "roughness " << roughness[i] << ", " << degrees[j] << " degrees";
+            const double factor =
+                diffuse_fresnel(glm::vec4(glm::dvec4(c, 1.0, c, roughness[i])), 1.0, 1.5).disney;
+            EXPECT_NEAR(factor, measured[i][j], 2e-3)
+                << "roughness " << roughness[i] << ", " << degrees[j] << " degrees";
         }
     }
 }
@@ -101,10 +105,12 @@ double fresnel_by_angles(double cos_i, double eta) {
 TEST_F(BrdfGlsl, DielectricFresnel) {
     const glm::vec4 any(1.0F, 1.0F, 1.0F, 0.5F);
     for (const double eta : {1.1, 1.5, 2.4}) {
-        EXPECT_NEAR(diffuse_fresnel(any, 1.0, eta).fresnel, std::pow((eta - 1.0) / (eta + 1.0), 2.0), 1e-6) << eta;
+        EXPECT_NEAR(diffuse_fresnel(any, 1.0, eta).fresnel, std::pow((eta - 1.0) / (eta + 1.0), 2.0), 1e-6)
+            << eta;
         EXPECT_NEAR(diffuse_fresnel(any, 0.0, eta).fresnel, 1.0, 1e-6) << "grazing";
         for (const double cos_i : {0.05, 0.3, 0.5547, 0.8, 0.95}) {
-            EXPECT_NEAR(diffuse_fresnel(any, cos_i, eta).fresnel, fresnel_by_angles(cos_i, eta), 1e-5) << eta << ' ' << cos_i;
+            EXPECT_NEAR(diffuse_fresnel(any, cos_i, eta).fresnel, fresnel_by_angles(cos_i, eta), 1e-5)
+                << eta << ' ' << cos_i;
         }
     }
     // From glass to air beyond the critical angle (41.8 degrees) everything is reflected.
@@ -119,7 +125,8 @@ TEST_F(BrdfGlsl, AWhiteMetalNeverGivesBackMoreThanItGets) {
             EXPECT_LE(share, 1.0 + 2e-3) << "roughness " << roughness << ", view at " << view;
             EXPECT_GE(share, 0.3) << "roughness " << roughness << ", view at " << view;
             if (roughness <= 0.1 && view <= 60.0) {
-                EXPECT_GE(share, 0.99) << "a mirror loses nothing; roughness " << roughness << ", view at " << view;
+                EXPECT_GE(share, 0.99)
+                    << "a mirror loses nothing; roughness " << roughness << ", view at " << view;
             }
         }
     }
@@ -134,7 +141,9 @@ TEST_F(BrdfGlsl, RoughMetalLosesWhatOneScatteringLoses) {
         constexpr int around = 500;
         double sum = 0.0;
         const glm::dvec3 v(std::sqrt(1.0 - cos_v * cos_v), 0.0, cos_v);
-        const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 / (c * c) - 1.0)) - 1.0); };
+        const auto lambda = [&](double c) {
+            return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 / (c * c) - 1.0)) - 1.0);
+        };
         for (int i = 0; i < steps; ++i) {
             const double z = (i + 0.5) / steps;
             for (int j = 0; j < around; ++j) {
@@ -187,9 +196,9 @@ TEST_F(BrdfGlsl, MirrorReflectanceAtNormalIncidence) {
     // At roughness 1 along the normal, D is 1/pi and the masking 1/(4 l.n v.n): the value is F0 / (4 pi).
     std::vector<glm::vec4> in;
     const glm::dvec3 up(0.0, 0.0, 1.0);
-    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 0.0, 0.5}, up, up);   // F0 = 0.04
-    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 1.0, 0.5}, up, up);   // F0 = the base colour
-    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 0.0, 0.0}, up, up);   // Specular 0: none
+    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 0.0, 0.5}, up, up);  // F0 = 0.04
+    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 1.0, 0.5}, up, up);  // F0 = the base colour
+    add(in, {{0.2F, 0.4F, 0.6F}, 1.0, 0.0, 0.0}, up, up);  // Specular 0: none
     add(in, {{0.2F, 0.4F, 0.6F}, 0.5, 0.0, 0.0}, at_angle(89.0), at_angle(89.0, pi));
     add(in, {{0.2F, 0.4F, 0.6F}, 0.5, 1.0, 0.5}, at_angle(100.0), up);  // light from below
     const std::vector<glm::vec4> out = run("brdf.comp", 4, 1, in);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A light's maps: the shaders' own projection, and its agreement with the matrices that draw the maps.
-#include "renderer/light_setup.h"
+#include <algorithm>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <algorithm>
-
+#include "renderer/light_setup.h"
 #include "shader_harness.h"
 
 namespace bounce::test {
@@ -30,8 +29,8 @@ class LightGlsl : public ShaderTest {
         scene::Bounds bounds;
         bounds.grow(glm::dvec3(-5.0, -1.0, -5.0));
         bounds.grow(glm::dvec3(5.0, 4.0, 5.0));
-        const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, -0.5)), 0.9,
-                                              glm::normalize(glm::dvec3(0.3, -1.0, 0.6)));
+        const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, -0.5)),
+                                              0.9, glm::normalize(glm::dvec3(0.3, -1.0, 0.6)));
         return set_up_light({0, 0, matrix}, light, bounds, gpu::RenderSpace::around(bounds), 64, 64);
     }
     // Points all over render space, which is about one unit large.
@@ -68,7 +67,8 @@ class LightGlsl : public ShaderTest {
                 ASSERT_NEAR(1.0F - found.w / setup.gpu.map.z, clip.z, 1e-5F);
             } else {
                 ASSERT_NEAR(found.w, clip.w, 1e-6F);
-                ASSERT_NEAR(setup.gpu.map.z / found.w / (clip.z / clip.w), 1.0F, 1e-5F) << "depth is near over distance";
+                ASSERT_NEAR(setup.gpu.map.z / found.w / (clip.z / clip.w), 1.0F, 1e-5F)
+                    << "depth is near over distance";
             }
         }
         EXPECT_GT(inside, 300);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shader_harness.h"
-
 #include <algorithm>
+
+#include "shader_harness.h"
 
 namespace bounce::test {
 namespace {
@@ -71,8 +71,11 @@ TEST_F(MathGlsl, OrthonormalBasis) {
 }
 
 TEST_F(MathGlsl, SafeNormalize) {
-    const std::vector<glm::vec4> in = {{3.0F, 0.0F, 4.0F, 0.0F}, {0.0F, 0.0F, 0.0F, 0.0F}, {1e-20F, 0.0F, 0.0F, 0.0F},
-                                       {1e-10F, 0.0F, 0.0F, 0.0F}, {0.0F, -1e15F, 0.0F, 0.0F}};
+    const std::vector<glm::vec4> in = {{3.0F, 0.0F, 4.0F, 0.0F},
+                                       {0.0F, 0.0F, 0.0F, 0.0F},
+                                       {1e-20F, 0.0F, 0.0F, 0.0F},
+                                       {1e-10F, 0.0F, 0.0F, 0.0F},
+                                       {0.0F, -1e15F, 0.0F, 0.0F}};
     const std::vector<glm::vec4> out = run("vectors.comp", 1, 3, in);
     const std::vector<glm::vec3> expected = {{0.6F, 0.0F, 0.8F}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
     for (size_t i = 0; i < in.size(); ++i) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the G-buffer and a reflective shadow map keep of a surface.
-#include "gl/texture.h"
-#include "renderer/light_setup.h"
-
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gl/texture.h"
+#include "renderer/light_setup.h"
 #include "shader_harness.h"
 
 namespace bounce::test {
@@ -24,7 +23,7 @@ TEST_F(PackingGlsl, SpecularAndDiffuseModelShareSixteenBits) {
             in.emplace_back(static_cast<float>(i) * 0.01F, disney, 0.0F, 0.0F);
         }
     }
-    in.emplace_back(5.0F, 1.0F, 0.0F, 0.0F);   // beyond what is kept
+    in.emplace_back(5.0F, 1.0F, 0.0F, 0.0F);  // beyond what is kept
     in.emplace_back(-1.0F, 0.0F, 0.0F, 0.0F);
     const std::vector<glm::vec4> out = run("gbuffer_specular.comp", 1, 1, in);
     for (size_t i = 0; i < in.size(); ++i) {
@@ -46,11 +45,13 @@ class RsmTexel : public ShaderTest {
         scene::Bounds bounds;
         bounds.grow(glm::dvec3(-2.0));
         bounds.grow(glm::dvec3(2.0));
-        const glm::dmat4 matrix =
-            glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.5, -0.1)), 0.7, glm::normalize(glm::dvec3(1, 2, 2)));
-        LightSetup setup = set_up_light({0, 0, matrix}, light, bounds, gpu::RenderSpace::around(bounds), size, size);
+        const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.5, -0.1)),
+                                              0.7, glm::normalize(glm::dvec3(1, 2, 2)));
+        LightSetup setup =
+            set_up_light({0, 0, matrix}, light, bounds, gpu::RenderSpace::around(bounds), size, size);
         setup.gpu.map.x = static_cast<float>(size);
-        const gl::Defines defines = {{"MAP_KIND", std::to_string(setup.map_kind)}, {"PROFILE", std::to_string(setup.profile)}};
+        const gl::Defines defines = {{"MAP_KIND", std::to_string(setup.map_kind)},
+                                     {"PROFILE", std::to_string(setup.profile)}};
         const gl::Buffer block = gl::Buffer::of("light", std::span<const gpu::GpuLight>(&setup.gpu, 1));
         block.bind_uniform(UBO_LIGHT);
 
@@ -64,7 +65,8 @@ class RsmTexel : public ShaderTest {
             for (int y = 0; y < size; ++y) {
                 for (int x = 0; x < size; ++x, ++n) {
                     const glm::dvec2 st((x + 0.5) * 2.0 / size - 1.0, (y + 0.5) * 2.0 / size - 1.0);
-                    // The point of the texel's middle at a depth of its own, by the matrix that draws the map.
+                    // The point of the texel's middle at a depth of its own, by the matrix that draws the
+                    // map.
                     const double depth = 0.1 + 0.8 * static_cast<double>(n % 37) / 37.0;
                     const glm::dmat4 render_from_clip =
                         glm::inverse(glm::dmat4(setup.faces[static_cast<size_t>(layer)].clip_from_render));
@@ -84,8 +86,10 @@ class RsmTexel : public ShaderTest {
         gl::Defines packing = defines;
         packing["PACK"] = "1";
         const std::vector<glm::vec4> bits = run("rsm_texel.comp", 3, 1, pack, packing);
-        const gl::Texture map("rsm", {.format = GL_RGBA32UI, .width = size, .height = size, .layers = layers});
-        glTextureSubImage3D(map.id(), 0, 0, 0, 0, size, size, layers, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
+        const gl::Texture map("rsm",
+                              {.format = GL_RGBA32UI, .width = size, .height = size, .layers = layers});
+        glTextureSubImage3D(map.id(), 0, 0, 0, 0, size, size, layers, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                            bits.data());
         map.bind(TEX_RSM);
         const std::vector<glm::vec4> out = run("rsm_texel.comp", 1, 4, places, defines);
         const glm::dvec3 light_position(glm::vec3(setup.gpu.position));
@@ -146,9 +150,10 @@ TEST_F(RsmTexel, AnEmptyTexelIsNoLight) {
 
 TEST_F(RsmTexel, DisneyWithoutRoughnessIsStillDisney) {
     // The sign carries the model, so a roughness of 0 is kept as a little more.
-    const std::vector<glm::vec4> bits = run("rsm_texel.comp", 3, 1,
-                                            {glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 0.0F, 1.0F, 1.0F), glm::vec4(1.0F)},
-                                            {{"PACK", "1"}, {"MAP_KIND", "0"}, {"PROFILE", "0"}});
+    const std::vector<glm::vec4> bits =
+        run("rsm_texel.comp", 3, 1,
+            {glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 0.0F, 1.0F, 1.0F), glm::vec4(1.0F)},
+            {{"PACK", "1"}, {"MAP_KIND", "0"}, {"PROFILE", "0"}});
     EXPECT_NE(std::bit_cast<uint32_t>(bits[0].w) >> 31, 0U);
 }
 

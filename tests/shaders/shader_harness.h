@@ -3,14 +3,14 @@
 // Runs a function of shaders/lib over numbers from C++ and returns what it says.
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "gl/buffer.h"
 #include "gl/program.h"

@@ -3,11 +3,11 @@
 // Which passes run, decided from reads and writes alone.
 #include "frame_graph/dependency_graph.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace bounce {
 namespace {

@@ -3,10 +3,10 @@
 // What of the frame graph needs no OpenGL: declaring. Running it is tested in tests/gl.
 #include "frame_graph/frame_graph.h"
 
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <stdexcept>
 
 namespace bounce {
 namespace {

@@ -3,12 +3,12 @@
 // Where a point of the world lands in the picture, against figures worked out by hand.
 #include "renderer/camera_view.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 namespace bounce {
 namespace {
@@ -18,7 +18,8 @@ constexpr double pi = std::numbers::pi;
 // Normalised device coordinates of a world point.
 glm::dvec3 project(const CameraView& view, int width, int height, const glm::dvec3& world,
                    const gpu::RenderSpace& space = {}) {
-    const glm::dvec4 p = camera_matrices(view, width, height, space).clip_from_render * glm::dvec4(space.point(world), 1.0);
+    const glm::dvec4 p =
+        camera_matrices(view, width, height, space).clip_from_render * glm::dvec4(space.point(world), 1.0);
     return glm::dvec3(p) / p.w;
 }
 
@@ -168,10 +169,11 @@ TEST(CameraView, RenderSpaceDoesNotMoveThePicture) {
     // 10^6 units away, the scene three kilometres large.
     CameraView view = perspective(0.8);
     const glm::dvec3 far_away(1e6, -2e6, 3e6);
-    view.world_from_camera =
-        glm::rotate(glm::translate(glm::dmat4(1.0), far_away), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
+    view.world_from_camera = glm::rotate(glm::translate(glm::dmat4(1.0), far_away), 0.7,
+                                         glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
     const gpu::RenderSpace space{far_away + glm::dvec3(100.0), 1.0 / 3000.0};
-    const glm::dvec3 point = far_away + glm::dvec3(glm::dmat3(view.world_from_camera) * glm::dvec3(0.3, -0.4, -2.0));
+    const glm::dvec3 point =
+        far_away + glm::dvec3(glm::dmat3(view.world_from_camera) * glm::dvec3(0.3, -0.4, -2.0));
     const glm::dvec3 near_origin = project(perspective(0.8), 160, 90, {0.3, -0.4, -2.0});
     expect_near(project(view, 160, 90, point, space), glm::dvec2(near_origin), 1e-7);
     EXPECT_NEAR(project(view, 160, 90, point, space).z, near_origin.z, 1e-7);
@@ -188,7 +190,8 @@ TEST(CameraView, OrthographicInRenderSpace) {
 
 TEST(CameraView, InverseAndDescriptionAgreeWithTheMatrix) {
     CameraView view = blender(scene::SensorFit::automatic);
-    view.world_from_camera = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 2, 3)), 0.9, glm::dvec3(0, 1, 0));
+    view.world_from_camera =
+        glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 2, 3)), 0.9, glm::dvec3(0, 1, 0));
     const gpu::RenderSpace space{{0.5, 0.5, 0.5}, 0.1};
     const CameraMatrices m = camera_matrices(view, 160, 90, space);
     const glm::dmat4 identity = m.clip_from_render * m.render_from_clip;
@@ -208,7 +211,8 @@ TEST(CameraView, APixelOfAnOrthographicPictureIsARenderSpaceLength) {
     CameraView view = perspective(1.0);
     view.camera.perspective = false;
     view.camera.ymag = 2.0F;
-    EXPECT_NEAR(camera_matrices(view, 100, 100, {{0, 0, 0}, 0.01}).pixel_radius, 0.5 * 4.0 / 100.0 * 0.01, 1e-12);
+    EXPECT_NEAR(camera_matrices(view, 100, 100, {{0, 0, 0}, 0.01}).pixel_radius, 0.5 * 4.0 / 100.0 * 0.01,
+                1e-12);
 }
 
 }  // namespace

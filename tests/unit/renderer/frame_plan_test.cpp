@@ -3,10 +3,10 @@
 // What a frame does and leaves out, and what it says about it. No OpenGL.
 #include "renderer/frame_plan.h"
 
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <string>
 
 namespace bounce {
 namespace {
@@ -51,7 +51,9 @@ class FramePlanTest : public testing::Test {
         add_node(node);
         return scene_.lights.back();
     }
-    [[nodiscard]] FramePlan plan() const { return plan_frame(scene_, scene::evaluate_pose(scene_, 0.0), settings_); }
+    [[nodiscard]] FramePlan plan() const {
+        return plan_frame(scene_, scene::evaluate_pose(scene_, 0.0), settings_);
+    }
     // The reason for leaving a pass out, or nothing where it is not left out.
     [[nodiscard]] static std::string reason(const FramePlan& plan, const std::string& pass) {
         for (const LeftOut& item : plan.left_out) {
@@ -131,7 +133,8 @@ TEST_F(FramePlanTest, ALightThatCastsNoShadowHasNoMap) {
     EXPECT_EQ(p.shadows, std::vector<bool>{false});
     EXPECT_THAT(reason(p, "shadow map: Key"), HasSubstr("casts no shadow"));
     settings_.show = Show::indirect;
-    EXPECT_EQ(reason(plan(), "shadow map: Key"), "") << "no direct light, so nothing was left out for the lamp's sake";
+    EXPECT_EQ(reason(plan(), "shadow map: Key"), "")
+        << "no direct light, so nothing was left out for the lamp's sake";
 }
 
 TEST_F(FramePlanTest, SurfacesThatReflectNothingDiffuselyBounceNothing) {

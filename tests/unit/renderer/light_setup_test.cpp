@@ -3,14 +3,14 @@
 // Lights as the shaders get them: axes, maps, cones, power.
 #include "renderer/light_setup.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 namespace bounce {
 namespace {
@@ -73,7 +73,8 @@ TEST(LightSetup, AxesAreOrthonormalForAnyTransform) {
         {"tiny", glm::scale(turned, glm::dvec3(1e-200))},
         {"looking along X without X", glm::dmat4({0, 0, 0, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 1})}};
     for (const auto& [name, matrix] : matrices) {
-        for (const auto type : {scene::LightType::point, scene::LightType::spot, scene::LightType::sun, scene::LightType::area}) {
+        for (const auto type : {scene::LightType::point, scene::LightType::spot, scene::LightType::sun,
+                                scene::LightType::area}) {
             SCOPED_TRACE(name + ", light type " + std::to_string(static_cast<int>(type)));
             const LightSetup setup = set_up(light_of(type), matrix);
             expect_orthonormal(setup.gpu);
@@ -89,7 +90,8 @@ TEST(LightSetup, AxesAreOrthonormalForAnyTransform) {
 }
 
 TEST(LightSetup, LooksAlongMinusZOfItsNode) {
-    const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(3, 4, 5)), pi / 2, glm::dvec3(1, 0, 0));
+    const glm::dmat4 matrix =
+        glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(3, 4, 5)), pi / 2, glm::dvec3(1, 0, 0));
     const LightSetup setup = set_up(light_of(scene::LightType::spot), matrix);
     EXPECT_LT(glm::length(glm::vec3(setup.gpu.axis) - glm::vec3(0, 1, 0)), 1e-6F);
     EXPECT_LT(glm::length(glm::vec3(setup.gpu.position) - glm::vec3(3, 4, 5)), 1e-6F);
@@ -99,13 +101,16 @@ TEST(LightSetup, SunMapHoldsTheWholeScene) {
     const scene::Bounds bounds = box({-3, 0, -20}, {5, 1, 4});
     const gpu::RenderSpace space = gpu::RenderSpace::around(bounds);
     for (int step = 0; step < 40; ++step) {
-        const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1e4, -7, 2)), 0.37 * step,
-                                              glm::normalize(glm::dvec3(std::sin(step), std::cos(1.7 * step), 0.3)));
+        const glm::dmat4 matrix =
+            glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1e4, -7, 2)), 0.37 * step,
+                        glm::normalize(glm::dvec3(std::sin(step), std::cos(1.7 * step), 0.3)));
         const LightSetup setup = set_up(light_of(scene::LightType::sun), matrix, bounds, space);
         ASSERT_EQ(setup.faces.size(), 1U);
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 world((corner & 1) != 0 ? 5 : -3, (corner & 2) != 0 ? 1 : 0, (corner & 4) != 0 ? 4 : -20);
-            const glm::vec4 p = setup.faces[0].clip_from_render * glm::vec4(glm::vec3(space.point(world)), 1.0F);
+            const glm::dvec3 world((corner & 1) != 0 ? 5 : -3, (corner & 2) != 0 ? 1 : 0,
+                                   (corner & 4) != 0 ? 4 : -20);
+            const glm::vec4 p =
+                setup.faces[0].clip_from_render * glm::vec4(glm::vec3(space.point(world)), 1.0F);
             EXPECT_LE(std::abs(p.x), 1.0F);
             EXPECT_LE(std::abs(p.y), 1.0F);
             EXPECT_GE(p.z, 0.0F);
@@ -122,7 +127,8 @@ TEST(LightSetup, SunMapIsNoLargerThanItNeedsToBe) {
     EXPECT_NEAR(setup.gpu.tangent.w, 4.0 * 1.01, 1e-5);
     EXPECT_NEAR(setup.gpu.bitangent.w, 12.0 * 1.01, 1e-5);
     EXPECT_NEAR(setup.gpu.map.z, 1.01, 1e-5);
-    EXPECT_NEAR(setup.flux_w, 3.0 * 8.0 * 24.0 * 1.01 * 1.01, 1e-2) << "irradiance times the map's cross-section";
+    EXPECT_NEAR(setup.flux_w, 3.0 * 8.0 * 24.0 * 1.01 * 1.01, 1e-2)
+        << "irradiance times the map's cross-section";
 }
 
 TEST(LightSetup, SunKeepsAVolumeOverAFlatOrEmptyScene) {
@@ -163,22 +169,26 @@ TEST(LightSetup, PlanarMapsHaveOneFaceAndCubesSixOfHalfTheSize) {
     EXPECT_EQ(point.faces.size(), 6U);
     EXPECT_EQ(point.gpu.map.x, 256.0F);
     EXPECT_EQ(point.gpu.map.y, 1024.0F);
-    const LightSetup smallest = set_up_light({0, 0, glm::dmat4(1.0)}, light_of(scene::LightType::point), {}, {}, 1, 1);
+    const LightSetup smallest =
+        set_up_light({0, 0, glm::dmat4(1.0)}, light_of(scene::LightType::point), {}, {}, 1, 1);
     EXPECT_EQ(smallest.gpu.map.x, 1.0F);
     EXPECT_EQ(smallest.gpu.map.y, 1.0F);
 }
 
 TEST(LightSetup, FacesSayWhetherTheyMirror) {
-    // A front face seen in the map turns over exactly where its projection's first three rows are left-handed.
+    // A front face seen in the map turns over exactly where its projection's first three rows are
+    // left-handed.
     for (const auto type : {scene::LightType::point, scene::LightType::spot, scene::LightType::sun}) {
-        const LightSetup setup = set_up(light_of(type), glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 0, 0)));
+        const LightSetup setup =
+            set_up(light_of(type), glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 0, 0)));
         for (const LightFace& face : setup.faces) {
             const glm::dmat4 m(face.clip_from_render);
             const glm::dvec3 x(m[0][0], m[1][0], m[2][0]);
             const glm::dvec3 y(m[0][1], m[1][1], m[2][1]);
             // Where the map looks: along w (perspective), against z (orthographic).
-            const glm::dvec3 forward = setup.map_kind == MAP_ORTHOGRAPHIC ? -glm::dvec3(m[0][2], m[1][2], m[2][2])
-                                                                          : glm::dvec3(m[0][3], m[1][3], m[2][3]);
+            const glm::dvec3 forward = setup.map_kind == MAP_ORTHOGRAPHIC
+                                           ? -glm::dvec3(m[0][2], m[1][2], m[2][2])
+                                           : glm::dvec3(m[0][3], m[1][3], m[2][3]);
             // X right and Y up of a picture that is seen as by an eye: x cross y points back at it.
             const bool mirrored = glm::dot(glm::cross(x, y), forward) > 0.0;
             EXPECT_EQ(face.mirrored, mirrored) << "light type " << static_cast<int>(type);
@@ -192,7 +202,8 @@ TEST(LightSetup, SpotMapTouchesTheCone) {
     const LightSetup setup = set_up(spot);
     const double t = std::tan(0.6);
     EXPECT_NEAR(setup.gpu.axis.w, t, 1e-6);
-    const glm::vec4 p = setup.faces[0].clip_from_render * glm::vec4(static_cast<float>(5.0 * t), 0.0F, -5.0F, 1.0F);
+    const glm::vec4 p =
+        setup.faces[0].clip_from_render * glm::vec4(static_cast<float>(5.0 * t), 0.0F, -5.0F, 1.0F);
     EXPECT_NEAR(std::abs(p.x / p.w), 1.0, 1e-6);
 }
 
@@ -237,7 +248,8 @@ TEST(LightSetup, IntensityAndFluxAreThoseOfTheLaws) {
     EXPECT_NEAR(spot.gpu.intensity.x, 12.0 / (4.0 * pi), 1e-6) << "the cone does not concentrate power";
     EXPECT_NEAR(spot.flux_w, 12.0 * 0.5 * (1.0 - std::cos(0.5)), 1e-5);
 
-    const LightSetup area = set_up(light_of(scene::LightType::area), glm::scale(glm::dmat4(1.0), glm::dvec3(3, 1, 1)));
+    const LightSetup area =
+        set_up(light_of(scene::LightType::area), glm::scale(glm::dmat4(1.0), glm::dvec3(3, 1, 1)));
     EXPECT_NEAR(area.gpu.intensity.x, 12.0 / 4.0, 1e-6) << "radiance P/(4A) times A";
     EXPECT_NEAR(area.gpu.area.x, 1.5, 1e-6) << "half sizes, after the node's scale";
     EXPECT_NEAR(area.gpu.area.y, 1.0, 1e-6);

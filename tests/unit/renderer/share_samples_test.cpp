@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "renderer/light_setup.h"
 
@@ -14,7 +14,8 @@ using Shares = std::vector<int>;
 TEST(ShareSamples, ByFlux) {
     EXPECT_EQ(share_samples({}, 224), Shares{});
     EXPECT_EQ(share_samples({5.0}, 224), Shares{224});
-    EXPECT_EQ(share_samples({3.0, 1.0}, 200), (Shares{141, 50})) << "0.75 is nearest to half an octave below 1";
+    EXPECT_EQ(share_samples({3.0, 1.0}, 200), (Shares{141, 50}))
+        << "0.75 is nearest to half an octave below 1";
 }
 
 TEST(ShareSamples, ADimLightKeepsASixteenthOfItsEvenShare) {
