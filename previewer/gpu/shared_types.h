@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 
 namespace bounce::gpu {
@@ -11,12 +12,13 @@ using glm::vec4;
 
 #include "shared/types.h"
 
-static_assert(sizeof(FrameUniforms) == 64 + 6 * 16);
-static_assert(sizeof(ViewUniforms) == 64 + 16);
-static_assert(sizeof(GpuLight) == 8 * 16);
-static_assert(sizeof(GpuMaterial) == 12 * 16);
-static_assert(sizeof(GpuDraw) == 7 * 16);
-static_assert(sizeof(DeformJob) == 3 * 16);
+constexpr std::size_t k_row = sizeof(vec4);  // a mat4 has four
+static_assert(sizeof(FrameUniforms) == (4 + 6) * k_row);
+static_assert(sizeof(ViewUniforms) == (4 + 1) * k_row);
+static_assert(sizeof(GpuLight) == 8 * k_row);
+static_assert(sizeof(GpuMaterial) == 12 * k_row);
+static_assert(sizeof(GpuDraw) == 7 * k_row);
+static_assert(sizeof(DeformJob) == 3 * k_row);
 
 }  // namespace bounce::gpu
 
