@@ -39,8 +39,8 @@ vec3 reflected(Surface s, vec3 l, vec3 v) {
 }
 
 #if PROFILE == PROFILE_AREA
-// Points a side of the stratified grid over an area light. 4 keeps the error of the unshadowed irradiance
-// below 1 % from one light's width away.
+// Points a side of the stratified grid over an area light: enough for receivers farther away than the light is
+// wide; nearer than that the points themselves begin to show.
 const int AREA_GRID = 4;
 
 vec3 area_light(Surface s, vec3 v) {

@@ -94,9 +94,9 @@ float distance_to_rim(vec2 c, vec2 d) {
 }
 
 // How far from the map's middle the pattern may be centred. A receiver that lies outside the map would
-// centre it on the rim, where half the directions have no room and their samples stand for nothing. Against
-// the full sum, over the examples, 0.6 has two thirds of the error that the rim itself has
-// (docs/papers/reflective_shadow_maps.md).
+// centre it on the rim, where half the directions have no room and their samples stand for nothing. On
+// examples/cornell.py at 64x36, against the full sum, 0.6 had seven tenths of the relMSE of 0.98 at 112 and at
+// 448 samples; 0.4 and 0.8 lay between.
 const float FARTHEST_CENTER = 0.6;
 
 // Where the receiver lies in the map, moved inside its rim.
