@@ -73,7 +73,7 @@ void add_evaluate(CLI::App& app, Run& run) {
         ->delimiter(',')
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    command->add_option("--bounces", options.diffuse_bounces, "Diffuse bounces that Cycles renders")
+    command->add_option("--bounces", options.bounces, "Diffuse bounces that Cycles renders")
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command->add_option("--repeat", options.repeat, "Renders of each frame by Bounce; their median counts")

@@ -14,8 +14,17 @@
 namespace bounce::cli {
 namespace {
 
-const std::map<std::string, Technique> k_techniques = {{"direct", Technique::direct},
-                                                       {"rsm", Technique::rsm}};
+const std::map<std::string, Technique> k_techniques = {
+    {"direct", Technique::direct}, {"rsm", Technique::rsm}, {"ism", Technique::ism}};
+
+const std::map<std::string, Visibility> k_visibilities = {
+    {"none", Visibility::none}, {"ism", Visibility::ism}, {"shadow-maps", Visibility::shadow_maps}};
+
+const std::map<std::string, Splat> k_splats = {
+    {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+
+const std::map<std::string, PullPush> k_pull_push = {
+    {"off", PullPush::off}, {"fill", PullPush::fill}, {"paper", PullPush::paper}};
 
 const std::map<std::string, passes::RsmPattern> k_patterns = {
     {"inverse-square", passes::RsmPattern::inverse_square},
@@ -85,8 +94,24 @@ void RenderOptions::add_to(CLI::App& command) {
     command
         .add_option("--rsm-size", rsm_size,
                     "Side of a reflective shadow map in texels; half of it for a cube's faces")
-        ->check(CLI::Range(2, 4096))
         ->capture_default_str();
+    command.add_option("--vpls", vpls, "Virtual point lights");
+    command.add_option("--visibility", visibility, "How virtual point lights are occluded")
+        ->check(one_of(k_visibilities));
+    command.add_option("--ism-size", ism_size, "Side of an imperfect shadow map in texels");
+    command.add_option("--points", points, "Points splatted into each imperfect shadow map");
+    command.add_option("--near-field", near_field, "on or off")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
+    command.add_option("--glossy-bounces", glossy_bounces, "on or off")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
+    command.add_option("--bounces", bounces, "bounces");
+    command.add_option("--bounce-vpls", bounce_vpls, "of each further bounce");
+    command.add_option("--splat", splat, "splat")->check(one_of(k_splats));
+    command.add_option("--pull-push", pull_push, "pull push")->check(one_of(k_pull_push));
+    command.add_flag("!--no-large-triangles", large_triangles, "");
+    command.add_flag("--splat-irsms", splat_irsms, "");
+    command.add_flag("!--keep-hull", drop_hull, "");
+    command.add_option("--interleave", interleave, "n x n");
     command
         .add_option("--shadow-size", shadow_size,
                     "Side of a shadow map in texels; half of it for a cube's faces")
@@ -113,6 +138,20 @@ Settings RenderOptions::settings(const scene::Scene& scene) const {
     out.interpolate = interpolate;
     out.lowres_step = lowres;
     out.rsm_size = rsm_size;
+    out.vpls = vpls;
+    out.visibility = k_visibilities.at(visibility);
+    out.ism_size = ism_size;
+    out.ism_points = points;
+    out.interleave = interleave;
+    out.near_field = near_field;
+    out.bounces = bounces;
+    out.bounce_vpls = bounce_vpls;
+    out.splat = k_splats.at(splat);
+    out.pull_push = k_pull_push.at(pull_push);
+    out.large_triangles = large_triangles;
+    out.drop_hull = drop_hull;
+    out.splat_irsms = splat_irsms;
+    out.glossy_bounces = glossy_bounces;
     out.shadow_size = shadow_size;
     require_shown_map(*this, out, scene);
     if (samples == "all") {

@@ -22,7 +22,21 @@ struct RenderOptions {
     std::string show = "shaded";
     bool interpolate = true;
     int lowres = 4;
-    int rsm_size = 512;
+    int rsm_size = 0;
+    int vpls = 256;
+    std::string visibility = "ism";
+    int ism_size = 64;
+    int points = 0;
+    int interleave = 4;
+    bool near_field = true;
+    int bounces = 1;
+    int bounce_vpls = 128;
+    std::string splat = "disks";
+    std::string pull_push = "fill";
+    bool large_triangles = true;
+    bool drop_hull = true;
+    bool splat_irsms = false;
+    bool glossy_bounces = true;
     int shadow_size = 2048;
     int light = 0;
 

@@ -40,7 +40,7 @@ json job_to_json(const CyclesJob& job) {
     json result{{"scene", fs::absolute(job.scene).string()},
                 {"width", job.width},
                 {"height", job.height},
-                {"diffuse_bounces", job.diffuse_bounces},
+                {"bounces", job.bounces},
                 {"frames", frames}};
     return result;
 }

@@ -26,7 +26,7 @@ struct CyclesJob {
     std::filesystem::path scene;  // .blend, .glb or .gltf
     int width = 640;
     int height = 360;
-    int diffuse_bounces = 1;
+    int bounces = 1;
     std::vector<CyclesRender> renders;  // those of one frame stand together
 };
 
@@ -42,7 +42,7 @@ struct CyclesReport {
 };
 
 // Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
-// diffuse_bounces diffuse bounces, no caustics, no clamping, no denoiser, no adaptive sampling; pixel
+// bounces diffuse bounces, no caustics, no clamping, no denoiser, no adaptive sampling; pixel
 // filter Blackman-Harris, 1.5 px (evaluate/cycles_render.py says how each is set). on_render is called
 // after each picture. Throws input_error where Blender cannot render the scene.
 [[nodiscard]] CyclesReport run_cycles(const CyclesJob& job, const std::filesystem::path& blender,

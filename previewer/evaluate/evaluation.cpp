@@ -73,14 +73,9 @@ class Evaluator {
 
   private:
     [[nodiscard]] ReferenceKey key_of(int frame) const {
-        return {scene_hash_,
-                frame,
-                options_.width,
-                options_.height,
-                options_.reference_spp,
-                options_.diffuse_bounces,
-                result_.blender,
-                cycles_scripts_hash()};
+        return {
+            scene_hash_,      frame,           options_.width,       options_.height, options_.reference_spp,
+            options_.bounces, result_.blender, cycles_scripts_hash()};
     }
 
     void load_references() {
@@ -94,7 +89,7 @@ class Evaluator {
         job.scene = options_.scene;
         job.width = options_.width;
         job.height = options_.height;
-        job.diffuse_bounces = options_.diffuse_bounces;
+        job.bounces = options_.bounces;
         const auto add = [&](int frame, int spp, int seed) {
             job.renders.push_back({frame, spp, seed, spp <= k_quick_spp ? k_quick_repeat : 1,
                                    scratch_ / fmt::format("cycles_{}_{}_{}.exr", frame, spp, seed), 0.0,
@@ -189,7 +184,7 @@ class Evaluator {
         result_.width = options_.width;
         result_.height = options_.height;
         result_.reference_spp = options_.reference_spp;
-        result_.diffuse_bounces = options_.diffuse_bounces;
+        result_.bounces = options_.bounces;
         result_.frames = options_.frames;
         result_.machine = this_machine();
         if (!previews_.empty()) {

@@ -24,7 +24,7 @@ struct EvaluateOptions {
     int height = 360;
     int reference_spp = 1024;  // even: two halves are rendered
     std::vector<int> cycles_spp{1, 4, 16, 64};
-    int diffuse_bounces = 1;
+    int bounces = 1;
     int repeat = 5;  // renders of each frame by Bounce, of which the median counts
     SceneSourceOptions source;
     std::filesystem::path bounce;  // the program whose `render` command draws
@@ -47,7 +47,7 @@ struct Evaluation {
     int width = 0;
     int height = 0;
     int reference_spp = 0;
-    int diffuse_bounces = 1;
+    int bounces = 1;
     std::vector<int> frames;
     Machine machine;
     std::string gl_vendor, gl_renderer, gl_version;

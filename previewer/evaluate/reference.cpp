@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 std::string cache_name(const ReferenceKey& key) {
     return sha256_of_text(fmt::format("{}\nframe {}\n{}x{}\n{} spp\n{} bounces\n{}\n{}\n", key.scene_hash,
-                                      key.frame, key.width, key.height, key.spp, key.diffuse_bounces,
-                                      key.blender, key.scripts_hash))
+                                      key.frame, key.width, key.height, key.spp, key.bounces, key.blender,
+                                      key.scripts_hash))
         .substr(0, 32);
 }
 

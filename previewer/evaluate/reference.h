@@ -18,7 +18,7 @@ struct ReferenceKey {
     int width = 0;
     int height = 0;
     int spp = 0;
-    int diffuse_bounces = 1;
+    int bounces = 1;
     std::string blender;       // blender_version()
     std::string scripts_hash;  // cycles_scripts_hash()
 };

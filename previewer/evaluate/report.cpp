@@ -52,7 +52,7 @@ ordered_json reference_json(const Evaluation& evaluation) {
             {"spp", evaluation.reference_spp},
             {"seconds", number(mean_of(evaluation.references, &Reference::seconds))},
             {"noise_floor_relmse", number(mean_of(evaluation.references, &Reference::noise_floor))},
-            {"diffuse_bounces", evaluation.diffuse_bounces},
+            {"bounces", evaluation.bounces},
             {"threads", evaluation.cycles.threads},
             {"startup_seconds", number(evaluation.cycles.startup_seconds)},
             {"first_render_seconds", number(evaluation.cycles.first_render_seconds)},

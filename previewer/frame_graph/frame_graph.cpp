@@ -50,6 +50,16 @@ TextureHandle FrameGraph::import_texture(const std::string& name, const gl::Text
     return {add_version(static_cast<int>(resources_.size()) - 1)};
 }
 
+BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer) {
+    Resource resource;
+    resource.name = name;
+    resource.is_texture = false;
+    resource.bytes = buffer.bytes();
+    resource.imported_buffer = &buffer;
+    resources_.push_back(std::move(resource));
+    return {add_version(static_cast<int>(resources_.size()) - 1)};
+}
+
 TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc) {
     FrameGraph::Resource resource;
     resource.name = name;
@@ -85,15 +95,25 @@ BufferHandle PassBuilder::read(BufferHandle handle) {
     return handle;
 }
 
+// A new version of what `version` stands for.
+int FrameGraph::declare_write(int pass, int version) {
+    const int resource = declare(pass, version);
+    dependencies_.read(pass, version);
+    const int next = add_version(resource);
+    dependencies_.write(pass, next);
+    return next;
+}
+
 TextureHandle PassBuilder::write(TextureHandle handle) {
-    const int resource = graph_.declare(pass_, handle.version);
-    graph_.dependencies_.read(pass_, handle.version);
-    const int version = graph_.add_version(resource);
-    graph_.dependencies_.write(pass_, version);
-    if (graph_.resources_[at(resource)].imported != nullptr) {
+    const int version = graph_.declare_write(pass_, handle.version);
+    if (graph_.resources_[at(graph_.resource_of_version_[at(version)])].imported != nullptr) {
         side_effect();
     }
     return {version};
+}
+
+BufferHandle PassBuilder::write(BufferHandle handle) {
+    return {graph_.declare_write(pass_, handle.version)};
 }
 
 void PassBuilder::side_effect() {
@@ -118,9 +138,9 @@ void FrameGraph::find_lifetimes(const std::vector<bool>& live) {
 }
 
 void FrameGraph::acquire(Resource& resource) {
-    if (!resource.is_texture) {
+    if (!resource.is_texture && resource.imported_buffer == nullptr) {
         resource.buffer = pool_.acquire_buffer(resource.name, resource.bytes);
-    } else if (resource.imported == nullptr) {
+    } else if (resource.is_texture && resource.imported == nullptr) {
         resource.texture = pool_.acquire_texture(resource.name, resource.desc);
     }
 }
@@ -235,7 +255,8 @@ gl::Buffer& PassResources::buffer(BufferHandle handle) const {
     if (!contains(pass.resources, index)) {
         refuse_access(pass.name, graph_.resources_[at(index)].name);
     }
-    return graph_.resources_[at(index)].buffer;
+    FrameGraph::Resource& resource = graph_.resources_[at(index)];
+    return resource.imported_buffer != nullptr ? *resource.imported_buffer : resource.buffer;
 }
 
 const gl::Framebuffer& PassResources::framebuffer(std::initializer_list<gl::Attachment> colors,

@@ -54,6 +54,7 @@ class PassBuilder {
     BufferHandle read(BufferHandle handle);
     // Changes what is there (reads and writes); returns the new version.
     [[nodiscard]] TextureHandle write(TextureHandle handle);
+    [[nodiscard]] BufferHandle write(BufferHandle handle);
     // The pass runs even where nothing reads its results.
     void side_effect();
 
@@ -70,6 +71,8 @@ class FrameGraph {
 
     // A texture that outlives the frame. Writing it is a side effect.
     TextureHandle import_texture(const std::string& name, const gl::Texture& texture);
+    // A buffer that outlives the frame as a cache: unlike a texture's, writing it keeps no pass alive.
+    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer);
 
     // setup(PassBuilder&) declares and returns the function that draws.
     template <typename Setup>
@@ -99,6 +102,7 @@ class FrameGraph {
         gl::TextureDesc desc;
         size_t bytes = 0;
         const gl::Texture* imported = nullptr;
+        gl::Buffer* imported_buffer = nullptr;
         gl::Texture texture;
         gl::Buffer buffer;
         int latest_version = -1;
@@ -113,6 +117,7 @@ class FrameGraph {
 
     int add_version(int resource);
     int declare(int pass, int version);
+    int declare_write(int pass, int version);
     void find_lifetimes(const std::vector<bool>& live);
     void acquire(Resource& resource);
     void release(Resource& resource);

@@ -189,6 +189,13 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         vertices_.set_draw_ids(draw_ids_);
     }
     draws_.update(std::span<const GpuDraw>(draws));
+    single_draws_.clear();
+    for (DrawBatch& batch : batches_) {
+        if (batch.draw_count == 1) {
+            batch.single = single_draws_.add(draws[batch.first_draw]);
+        }
+    }
+    single_draws_.upload();
 }
 
 void GpuScene::bind() const {

@@ -8,6 +8,7 @@
 #include "gpu/material_textures.h"
 #include "gpu/render_space.h"
 #include "gpu/shared_types.h"
+#include "gpu/uniform_arena.h"
 #include "gpu/vertex_store.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
@@ -38,6 +39,7 @@ struct DrawBatch {
     int base_vertex = 0;
     uint32_t first_draw = 0;
     uint32_t draw_count = 0;
+    UniformArena::Slot single;  // GpuDraw, where draw_count is 1
 };
 
 // The scene on the GPU: geometry, images and materials are uploaded once; set_pose uploads what a moment
@@ -60,8 +62,12 @@ class GpuScene {
     [[nodiscard]] size_t triangles_drawn() const { return triangles_; }
     [[nodiscard]] const VertexStore& vertices() const { return vertices_; }
 
-    // Binds vertex arrays, draw and material buffers; then draw() with a program in use.
+    // Binds vertex arrays, draw and material buffers; then bind_single() where a batch is one draw, and
+    // draw() with a program in use.
     void bind() const;
+    void bind_materials() const { materials_.bind_storage(SSBO_MATERIALS); }
+    void bind_vertex_array() const { vertices_.bind_vertex_array(); }
+    void bind_single(const DrawBatch& batch) const { single_draws_.bind(UBO_DRAW, batch.single); }
     void bind_material(const DrawBatch& batch) const;
     static void draw(const DrawBatch& batch);
 
@@ -75,6 +81,7 @@ class GpuScene {
     MaterialTextures textures_;
     std::vector<DrawBatch> batches_;
     gl::Buffer draws_;
+    UniformArena single_draws_;
     gl::Buffer draw_ids_;
     gl::Buffer materials_;
     size_t draw_capacity_ = 0;

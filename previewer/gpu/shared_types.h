@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+
 #include <glm/glm.hpp>
 
 namespace bounce::gpu {
@@ -18,6 +19,10 @@ static_assert(sizeof(ViewUniforms) == (4 + 1) * k_row);
 static_assert(sizeof(GpuLight) == 8 * k_row);
 static_assert(sizeof(GpuMaterial) == 12 * k_row);
 static_assert(sizeof(GpuDraw) == 7 * k_row);
+static_assert(sizeof(GpuVpl) == 8 * k_row);
+static_assert(sizeof(IsmUniforms) == 4 * k_row);
+static_assert(sizeof(GpuPointSource) == 2 * k_row);
+static_assert(sizeof(GpuPointSurface) == 4 * k_row);
 static_assert(sizeof(DeformJob) == 3 * k_row);
 
 }  // namespace bounce::gpu

@@ -15,6 +15,9 @@ void UniformArena::upload() {
     if (buffer_.bytes() < data_.size()) {
         buffer_ = gl::Buffer("uniforms", data_.size() * 2, GL_DYNAMIC_STORAGE_BIT);
     }
+    if (data_.empty()) {
+        return;
+    }
     buffer_.update(std::span<const std::byte>(data_));
 }
 

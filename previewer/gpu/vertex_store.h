@@ -46,6 +46,8 @@ class VertexStore {
     // Instance attribute with the draw's index, from 0 up to the count it was made for.
     void set_draw_ids(const gl::Buffer& ids) const;
     void bind_for_deform() const;
+    // Three floats a vertex: model space, and of deformed vertices what the deform pass wrote.
+    [[nodiscard]] const gl::Buffer& positions() const { return positions_; }
     [[nodiscard]] bool has_tangents() const { return static_cast<bool>(tangents_); }
 
   private:

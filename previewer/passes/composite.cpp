@@ -17,6 +17,10 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             builder.read(inputs.irradiance);
             defines["INDIRECT"] = "1";
         }
+        if (inputs.bounced.valid()) {
+            builder.read(inputs.bounced);
+            defines["BOUNCED"] = "1";
+        }
         if (inputs.world_light) defines["WORLD"] = "1";
         const bool emission = inputs.emission && inputs.gbuffer.emission.valid();
         if (emission) {
@@ -30,6 +34,7 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             bind_gbuffer(resources, inputs.gbuffer);
             if (inputs.direct.valid()) resources.texture(inputs.direct).bind(TEX_DIRECT);
             if (inputs.irradiance.valid()) resources.texture(inputs.irradiance).bind(TEX_INDIRECT);
+            if (inputs.bounced.valid()) resources.texture(inputs.bounced).bind_image(IMG_IN, GL_READ_ONLY);
             if (emission) resources.texture(inputs.gbuffer.emission).bind(TEX_GBUFFER2);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

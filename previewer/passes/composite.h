@@ -9,6 +9,7 @@ struct CompositeInputs {
     GBuffer gbuffer;
     TextureHandle direct;      // invalid: none
     TextureHandle irradiance;  // invalid: none
+    TextureHandle bounced;     // shaders/lib/bounced.glsl; invalid: none
     bool world_light = false;
     bool emission = false;
 };

@@ -49,6 +49,10 @@ void draw_scene(const PassContext& context, const View& view, DrawKind kind, con
     for (const gpu::DrawBatch& batch : context.scene.batches()) {
         gl::Defines all = batch_defines(batch.features, kind);
         all.insert(defines.begin(), defines.end());
+        if (batch.draw_count == 1) {
+            all["SINGLE_DRAW"] = "1";
+            context.scene.bind_single(batch);
+        }
         context.programs.raster("passes/geometry.vert", fragment, all).use();
         context.scene.bind_material(batch);
         glFrontFace(batch.mirrored != view.mirrored ? GL_CW : GL_CCW);

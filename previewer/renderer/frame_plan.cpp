@@ -102,7 +102,7 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePla
 FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings) {
     FramePlan plan;
     plan.direct = settings.show == Show::shaded || settings.show == Show::direct;
-    plan.indirect = settings.technique == Technique::rsm && settings.show != Show::direct;
+    plan.indirect = settings.technique != Technique::direct && settings.show != Show::direct;
     if (settings.technique == Technique::direct) {
         plan.left_out.push_back({"rsm", "direct light only was asked for"});
     }
@@ -115,9 +115,14 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan.indirect = plan.indirect && !plan.lights.empty();
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, plan);
-    plan.interpolate =
-        plan.indirect && settings.interpolate && settings.lowres_step > 1 && !settings.rsm_full_sum;
-    if (plan.indirect && !plan.interpolate) {
+    plan.vpls = plan.indirect && settings.technique == Technique::ism;
+    plan.near_field = plan.vpls && settings.near_field;
+    plan.glossy = plan.vpls && settings.glossy_bounces;
+    plan.occluded = plan.vpls && settings.visibility != Visibility::none;
+    plan.bounces = plan.vpls ? settings.bounces : 0;
+    plan.interpolate = plan.indirect && !plan.vpls && settings.interpolate && settings.lowres_step > 1 &&
+                       !settings.rsm_full_sum;
+    if (plan.indirect && !plan.vpls && !plan.interpolate) {
         plan.left_out.push_back({"rsm interpolate", "every pixel is evaluated in full, as asked for"});
     }
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && settings.show == Show::shaded;

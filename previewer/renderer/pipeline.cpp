@@ -4,10 +4,16 @@
 #include "passes/composite.h"
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
+#include "passes/irsm.h"
+#include "passes/ism.h"
 #include "passes/layer_view.h"
+#include "passes/near_field.h"
+#include "passes/point_update.h"
 #include "passes/rsm.h"
 #include "passes/rsm_gather.h"
 #include "passes/shadow_map.h"
+#include "passes/vpl_gather.h"
+#include "passes/vpl_sampling.h"
 
 namespace bounce {
 namespace {
@@ -40,6 +46,67 @@ void count_gathered_pixels(FrameGraph& graph, BufferHandle counts, int* result) 
     });
 }
 
+// Bounce by bounce: lights from what the bounce before reflects, their shadow maps; then all of them at once.
+TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                                const std::vector<passes::VplSource>& sources) {
+    using namespace passes;
+    const PassContext& context = in.context;
+    const ScenePoints scene =
+        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
+    VplGatherInputs lit{
+        .gbuffer = gbuffer,
+        .sets = {},
+        .slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks,
+        .near_field = in.plan.near_field,
+        .glossy = in.plan.glossy,
+        .removed = false};
+    VplImportance importance;
+    for (size_t bounce = 0; bounce < in.bounces.size(); ++bounce) {
+        DrawnVpls drawn;
+        if (bounce == 0) {
+            drawn = add_vpls_from_rsms(graph, context, sources, in.bounces[bounce].lights, in.plan.glossy);
+            importance = drawn.importance;
+        } else {
+            VplSet maps = in.bounces[bounce - 1].irsms;
+            maps.vpls = lit.sets.back().vpls;
+            IrsmSource source{.set = maps,
+                              .irsm = {},
+                              .atlas = lit.sets.back().atlas,
+                              .slope_bias = lit.slope_bias,
+                              .scene = scene,
+                              .store = in.points};
+            if (in.settings.splat_irsms) {
+                source.irsm = add_irsm(graph, context, scene, maps);
+            }
+            drawn = add_vpls_from_irsms(graph, context, source, in.bounces[bounce].lights, in.plan.glossy);
+        }
+        if (in.plan.occluded) {
+            drawn.set.atlas = add_ism(graph, context,
+                                      {.scene = scene,
+                                       .large_triangles = static_cast<int>(in.points->large_triangles()),
+                                       .splat = in.settings.splat,
+                                       .pull_push = {in.settings.pull_push, in.settings.pull_push_levels,
+                                                     in.settings.pull_threshold, in.settings.push_threshold}},
+                                      drawn.set)
+                                  .atlas;
+        }
+        lit.sets.push_back(drawn.set);
+    }
+    const GatheredLight light = add_vpl_gather(graph, context, lit);
+    TextureHandle bounced = light.bounced;
+    if (in.plan.near_field) {
+        bounced = add_near_field(graph, context,
+                                 {.gbuffer = gbuffer,
+                                  .sources = sources,
+                                  .importance = importance,
+                                  .uniforms = lit.sets.front().uniforms,
+                                  .glossy = in.plan.glossy},
+                                 light);
+    }
+    const int interleave = lit.sets.front().interleave;
+    return interleave > 1 ? add_bounced_blur(graph, context, gbuffer, bounced, interleave) : bounced;
+}
+
 }  // namespace
 
 void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
@@ -69,7 +136,14 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
 
     TextureHandle irradiance;
-    if (in.plan.indirect && in.plan.interpolate) {
+    TextureHandle bounced;
+    if (in.plan.vpls) {
+        std::vector<VplSource> sources;
+        for (const RsmSource& source : gather.sources) {
+            sources.push_back({source.light, source.rsm});
+        }
+        bounced = add_bounced_light(graph, in, gbuffer, sources);
+    } else if (in.plan.indirect && in.plan.interpolate) {
         const InterpolatedGather result =
             add_rsm_gather_interpolated(graph, context, gather, in.settings.lowres_step);
         irradiance = result.irradiance;
@@ -88,6 +162,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
                   {.gbuffer = gbuffer,
                    .direct = direct,
                    .irradiance = irradiance,
+                   .bounced = bounced,
                    .world_light = in.plan.world_light,
                    .emission = in.plan.emission && in.settings.show == Show::shaded},
                   in.target);

@@ -3,12 +3,20 @@
 
 #include <vector>
 
+#include "gpu/point_store.h"
 #include "passes/pass_context.h"
 #include "passes/rsm_gather.h"
+#include "passes/vpl_sampling.h"
 #include "renderer/frame_plan.h"
 #include "renderer/settings.h"
 
 namespace bounce {
+
+// One bounce's lights, and the maps that the next one's are drawn from: counts, places and uniforms.
+struct Bounce {
+    passes::VplSet lights;
+    passes::VplSet irsms;
+};
 
 struct PipelineInputs {
     const FramePlan& plan;
@@ -18,6 +26,8 @@ struct PipelineInputs {
     std::vector<passes::LightPass> lights;               // parallel to plan.lights
     std::vector<gpu::UniformArena::Slot> gather_frames;  // FrameUniforms with each light's sample count
     std::vector<const gl::Buffer*> patterns;             // each light's
+    gpu::PointStore* points = nullptr;                   // where the plan needs them
+    std::vector<Bounce> bounces;                         // plan.bounces of them
     TextureHandle target;
     int* gathered_pixels = nullptr;  // filled where settings ask for it
 };

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
 
@@ -26,14 +29,87 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
     frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)),
                            settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
                            settings.interpolation_distance};
-    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, 0.0F};
+    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, 1.0F};
     return frame;
+}
+
+// Texels a side of an imperfect reflective shadow map: it decides where the next bounce's lights stand, not
+// what they are hidden from.
+constexpr int k_irsm_size = 32;
+
+passes::VplSet vpl_set(const IsmLayout& layout) {
+    passes::VplSet set;
+    set.maps = layout.vpls;
+    set.map_size = layout.map_size;
+    set.columns = layout.columns;
+    set.rows = layout.rows();
+    set.points_a_map = layout.points_a_map;
+    set.interleave = layout.interleave;
+    set.subset = layout.subset;
+    set.subset_places = layout.subset_places;
+    set.cell_columns = layout.cell_columns;
+    return set;
 }
 
 }  // namespace
 
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
+
+std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
+                                              FramePlan& plan) {
+    const bool needs_points = plan.occluded || plan.bounces > 1;
+    if (needs_points && !points_) {
+        points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
+    }
+    IsmLayout first = ism_layout(settings, 1, 0);
+    IsmLayout irsm = first;
+    irsm.map_size = k_irsm_size;
+    double mean_radius = 0.0;
+    if (needs_points) {
+        const scene::Bounds& bounds = gpu_scene_.bounds();
+        const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
+        const double hull = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+        const bool drop_hull = settings.drop_hull;
+        const double occluding = points_->occluding_area_m2(pose, drop_hull);
+        first.points_a_map = settings.ism_points > 0
+                                 ? settings.ism_points
+                                 : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
+        irsm.points_a_map =
+            getenv("PR") ? atoi(getenv("PR"))
+                         : automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
+        scene::PointCounts counts;
+        counts.points_a_map = static_cast<size_t>(first.points_a_map);
+        counts.occluders = plan.occluded ? points_in_all(first) : 0;
+        counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
+        counts.reflectors = plan.bounces > 1 ? points_in_all(irsm) : 0;
+        counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
+        points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull);
+        mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
+                      gpu_scene_.space().scale;
+        if (plan.occluded && points_->occluders() == 0 && points_->large_triangles() == 0) {
+            plan.occluded = false;
+            plan.left_out.push_back(
+                {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
+        }
+    }
+    std::vector<Bounce> out;
+    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
+        const IsmLayout layout = ism_layout(settings, bounce, first.points_a_map);
+        Bounce& added = out.emplace_back();
+        added.lights = vpl_set(layout);
+        const size_t occluders = needs_points ? points_->occluders() : 0;
+        added.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
+        IsmLayout maps = layout;
+        maps.map_size = irsm.map_size;
+        maps.points_a_map = irsm.points_a_map;
+        maps.shadow_map_size = layout.map_size;
+        added.irsms = vpl_set(maps);
+        added.irsms.uniforms = uniforms_.add(
+            irsm_uniforms(maps, needs_points ? points_->reflectors() : 0, occluders, settings.splat_irsms));
+    }
+    return out;
+}
 
 const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
     auto found = patterns_.find({kind, samples});
@@ -50,8 +126,7 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing) {
     FrameReport report;
-    const FramePlan plan = plan_frame(scene_, pose, settings);
-    report.left_out = plan.left_out;
+    FramePlan plan = plan_frame(scene_, pose, settings);
     report.approximations = plan.approximations;
     gpu_scene_.set_pose(pose);
     report.triangles = gpu_scene_.triangles_drawn();
@@ -81,7 +156,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         const scene::LightInstance& instance = pose.light_instances[static_cast<size_t>(index)];
         const LightSetup setup =
             set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
-                         gpu_scene_.space(), settings.rsm_size, settings.shadow_size);
+                         gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
         passes::LightPass pass;
         pass.name = setup.name;
         pass.map_kind = setup.map_kind;
@@ -106,7 +181,9 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect ? samples[i] : 0;
     }
+    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan);
     uniforms_.upload();
+    report.left_out = plan.left_out;
 
     gl::PassTimer timer(timing);
     if (plan.deform) {
@@ -130,6 +207,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .lights = lights,
                     .gather_frames = gather_frames,
                     .patterns = patterns,
+                    .points = plan.occluded || plan.bounces > 1 ? points_.get() : nullptr,
+                    .bounces = bounces,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});
     graph.execute(timer);

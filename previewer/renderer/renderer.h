@@ -13,10 +13,12 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/point_store.h"
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
 #include "renderer/camera_view.h"
 #include "renderer/frame_plan.h"
+#include "renderer/pipeline.h"
 #include "renderer/settings.h"
 
 namespace bounce {
@@ -58,10 +60,14 @@ class Renderer {
     void reload_shaders() { programs_.clear(); }
 
   private:
+    // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
+    // occludes.
+    std::vector<Bounce> prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
     gpu::GpuScene gpu_scene_;
+    std::unique_ptr<gpu::PointStore> points_;  // made when a frame first needs it
     gl::ProgramCache programs_;
     TransientPool pool_;
     gpu::UniformArena uniforms_;

@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "passes/ism.h"
 #include "passes/rsm_pattern.h"
 
 namespace bounce {
 
-enum class Technique { direct, rsm };
+enum class Technique {
+    direct,
+    rsm,  // one bounce gathered from reflective shadow maps, unoccluded
+    ism,  // bounces by virtual point lights and imperfect shadow maps
+};
+
+// How virtual point lights are hidden from what they light.
+enum class Visibility {
+    none,
+    ism,          // imperfect shadow maps
+    shadow_maps,  // maps of the same size drawn from triangles: the reference, slow
+};
+
+using Splat = passes::Splat;
+using PullPush = passes::PullPush;
 
 // What the colour target shows.
 enum class Show {
@@ -16,21 +31,29 @@ enum class Show {
     rsm_position,
     rsm_normal,
     rsm_flux,
-    interpolation,  // red where the indirect light was evaluated in full
+    interpolation,   // red where the indirect light was evaluated in full
+    vpls,            // the picture, dimmed, with a dot for each virtual point light
+    ism_splats,      // the atlas before pull-push
+    ism,             // the atlas as it is used
+    vpl_visibility,  // what one light's map leaves lit
+    unblurred,       // indirect light before the blur
+    removed,         // light that bounding the lights' kernels takes away
 };
 
 struct Settings {
     int width = 960;
     int height = 540;
-    Technique technique = Technique::rsm;
+    Technique technique = Technique::ism;
     Show show = Show::shaded;
-    int shown_light = 0;  // whose RSM the rsm_ layers show
+    int shown_light = 0;   // whose RSM the rsm_ layers show
+    int shown_vpl = 0;     // whose map vpl_visibility shows
+    int shown_bounce = 1;  // whose lights and maps the layers of both show
 
     // Over all lights; each gets its part by the light it sends out. 224 is the middle of the paper's range.
     int rsm_samples = 224;
     passes::RsmPattern rsm_pattern = passes::RsmPattern::uniform_radius;
     bool rsm_full_sum = false;  // every texel: the reference, slow
-    int rsm_size = 512;         // a cube's faces have half of it
+    int rsm_size = 0;           // a cube's faces have half of it; 0: 512 for rsm, 256 for ism
 
     // Screen-space interpolation (section 4 of the paper).
     bool interpolate = true;
@@ -42,9 +65,34 @@ struct Settings {
     // ... and within this many cell widths of the pixel, as the cell stretches over the tilted surface.
     float interpolation_distance = 2.0F;
 
+    // Virtual point lights and imperfect shadow maps.
+    int bounces = 1;
+    int vpls = 256;         // of the first bounce
+    int bounce_vpls = 128;  // of each further one
+    Visibility visibility = Visibility::ism;
+    Splat splat = Splat::disks;
+    bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper
+    int ism_size = 64;         // texels a side of each map
+    int ism_points =
+        0;  // points splatted into each map; 0 chooses by the maps' size and the depth complexity
+    bool large_triangles = true;  // with disks: what would take many points is drawn as triangles
+    bool drop_hull = true;        // what lies on the scene's hull hides nothing, so it is not splatted
+    PullPush pull_push = PullPush::fill;  // with one depth a splat
+    int pull_push_levels = 2;
+    float pull_threshold = 0.05F;  // of the scene's extent
+    float push_threshold = 0.05F;
+    int interleave = 4;          // n: each of n x n pixels gathers from another n x n-th of the lights
+    bool near_field = true;      // what lies near the lights is gathered from the RSMs
+    bool glossy_bounces = true;  // glossy lobes of lights and receivers count
+
     int shadow_size = 2048;  // a cube's faces have half of it
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
+    bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
+
+    [[nodiscard]] int used_rsm_size() const {
+        return rsm_size > 0 ? rsm_size : technique == Technique::ism ? 256 : 512;
+    }
 };
 
 }  // namespace bounce

@@ -36,6 +36,8 @@ void add_morph_extremes(const std::vector<Box>& targets, const std::vector<float
     }
 }
 
+}  // namespace
+
 void grow_by_primitive(Bounds& bounds, const Pose& pose, const DrawInstance& draw,
                        const PrimitiveBounds& primitive) {
     const std::vector<float>& weights = pose.weights[static_cast<size_t>(draw.node)];
@@ -54,8 +56,6 @@ void grow_by_primitive(Bounds& bounds, const Pose& pose, const DrawInstance& dra
         grow_transformed(bounds, joints[j], box);
     }
 }
-
-}  // namespace
 
 void Bounds::grow(const glm::dvec3& point) {
     low = glm::min(low, point);

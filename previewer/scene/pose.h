@@ -59,8 +59,12 @@ constexpr int k_all_animations = -1;
 // are one scene's; of any other file the first, because its clips are alternatives (walk, run, jump).
 [[nodiscard]] int default_animation(const Scene& scene);
 
-// World bounds of what the pose draws, from transformed corner boxes of primitives (skinned: of the
-// joints' boxes; morphed: with the targets' extremes). Conservative: never too small.
+// Grows world bounds by one primitive of a draw: its transformed corner box (skinned: of the joints' boxes;
+// morphed: with the targets' extremes). Conservative: never too small.
+void grow_by_primitive(Bounds& bounds, const Pose& pose, const DrawInstance& draw,
+                       const PrimitiveBounds& primitive);
+
+// World bounds of what the pose draws, by grow_by_primitive().
 [[nodiscard]] Bounds world_bounds(const Scene& scene, const Pose& pose);
 
 // A camera placed so that the whole scene is in the frame, for files without one: looks at the centre

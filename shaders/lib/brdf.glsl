@@ -42,14 +42,42 @@ struct Surface {
     bool disney;
 };
 
+// Reflectance of the glossy lobe at normal incidence.
+vec3 specular_f0(Surface s) {
+    return mix(vec3(0.08 * s.specular), s.base_color, s.metallic);
+}
+
 vec3 diffuse_albedo(Surface s) {
     return s.base_color * (1.0 - s.metallic);
 }
 
-// GGX reflection times the cosine at the receiver: BRDF * n.l (Walter et al. 2007, "Microfacet Models for
-// Refraction through Rough Surfaces"; height-correlated Smith masking, Heitz 2014). F0 and its rise to 1
-// follow the Principled BSDF: 0.08 * specular for dielectrics, the base colour for metals, scaled by the
-// exact Fresnel curve.
+// GGX distribution and Smith's shadowing, as factors of the BRDF: D V, with the 1 / (4 n.l n.v) in V (Walter et
+// al. 2007, "Microfacet Models for Refraction through Rough Surfaces"). Shadowing towards light and viewer is
+// independent, as in Cycles before 4.0: at grazing angles it is up to two times darker than the
+// height-correlated kind (measured in docs/lights.md). n_cross_h: n x h, because 1 - (n.h)^2 as a difference has
+// no digits left where a highlight is narrow.
+float ggx_distribution_visibility(float n_dot_l, float n_dot_v, float n_dot_h, vec3 n_cross_h, float alpha) {
+    float alpha2 = alpha * alpha;
+    float t = n_dot_h * n_dot_h * alpha2 + dot(n_cross_h, n_cross_h);
+    float smith_l = n_dot_l + sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
+    float smith_v = n_dot_v + sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2);
+    return alpha2 / max(PI * t * t * smith_l * smith_v, 1e-20);
+}
+
+// Index of refraction of a dielectric from its reflectance at normal incidence, 0.08 * specular.
+float dielectric_eta(float f0) {
+    float root = sqrt(clamp(f0, 0.0, 0.99));
+    return max((1.0 + root) / (1.0 - root), 1.0001);
+}
+
+// How far the Fresnel reflectance has risen from its value at normal incidence, 0, to grazing, 1.
+float fresnel_rise(float cos_i, float eta) {
+    float f0 = (eta - 1.0) * (eta - 1.0) / ((eta + 1.0) * (eta + 1.0));
+    return clamp((dielectric_fresnel(cos_i, eta) - f0) / (1.0 - f0), 0.0, 1.0);
+}
+
+// GGX reflection times the cosine at the receiver: BRDF * n.l. F0 and its rise to 1 follow the Principled BSDF:
+// 0.08 * specular for dielectrics, the base colour for metals, scaled by the exact Fresnel curve.
 vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
     float n_dot_l = dot(s.normal, l);
     float n_dot_v = max(dot(s.normal, v), 1e-4);
@@ -59,26 +87,14 @@ vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
     // Below this a highlight is narrower than float resolves; Cycles treats such surfaces as mirrors, which
     // lights without size do not show in.
     float alpha = max(s.roughness * s.roughness, 1e-3);
-    float alpha2 = alpha * alpha;
     vec3 h = safe_normalize(l + v, s.normal);
     float n_dot_h = clamp(dot(s.normal, h), 0.0, 1.0);
     float h_dot_v = clamp(dot(h, v), 0.0, 1.0);
-    // 1 - (n.h)^2 as a cross product: the difference would have no digits left where a highlight is narrow.
-    vec3 n_cross_h = cross(s.normal, h);
-    float t = n_dot_h * n_dot_h * alpha2 + dot(n_cross_h, n_cross_h);
-    float distribution = alpha2 / (PI * max(t * t, 1e-20));
-    float lambda_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2);
-    float lambda_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
-    float visibility = 0.5 / max(lambda_v + lambda_l, 1e-20);
-
-    float f0_dielectric = 0.08 * s.specular;
-    float root = sqrt(clamp(f0_dielectric, 0.0, 0.99));
-    float eta = max((1.0 + root) / (1.0 - root), 1.0001);
-    float f0_exact = (eta - 1.0) * (eta - 1.0) / ((eta + 1.0) * (eta + 1.0));
-    float rise = clamp((dielectric_fresnel(h_dot_v, eta) - f0_exact) / (1.0 - f0_exact), 0.0, 1.0);
-    vec3 f0 = mix(vec3(f0_dielectric), s.base_color, s.metallic);
+    float lobe = ggx_distribution_visibility(n_dot_l, n_dot_v, n_dot_h, cross(s.normal, h), alpha);
+    vec3 f0 = specular_f0(s);
+    float rise = fresnel_rise(h_dot_v, dielectric_eta(0.08 * s.specular));
     vec3 fresnel = s.specular > 0.0 || s.metallic > 0.0 ? mix(f0, vec3(1.0), rise) : vec3(0.0);
-    return fresnel * (distribution * visibility * n_dot_l);
+    return fresnel * (lobe * n_dot_l);
 }
 
 #endif

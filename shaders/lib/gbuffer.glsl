@@ -46,21 +46,24 @@ vec3 pixel_position(ivec2 pixel, float depth) {
     return p.xyz / p.w;
 }
 
-// False where the pixel shows no surface.
-bool read_surface(ivec2 pixel, out Surface s) {
+// Returns the depth, 0 where the pixel shows no surface; s is then of no use, but finite. Without a branch, so
+// that what follows is not in one.
+float read_surface_unbranched(ivec2 pixel, out Surface s) {
     float depth = texelFetch(depth_texture, pixel, 0).r;
-    if (depth == 0.0) {
-        return false;
-    }
     vec4 g0 = texelFetch(gbuffer0_texture, pixel, 0);
     vec4 g1 = texelFetch(gbuffer1_texture, pixel, 0);
-    s.position = pixel_position(pixel, depth);
+    s.position = pixel_position(pixel, depth > 0.0 ? depth : 0.5);
     s.normal = unpack_normal(g1);
     s.base_color = g0.rgb;
     s.roughness = g0.a;
     s.metallic = g1.z;
     unpack_specular(g1.w, s.specular, s.disney);
-    return true;
+    return depth;
+}
+
+// False where the pixel shows no surface.
+bool read_surface(ivec2 pixel, out Surface s) {
+    return read_surface_unbranched(pixel, s) > 0.0;
 }
 #endif
 

@@ -18,6 +18,10 @@ vec3 light_from_render(vec3 position) {
     return vec3(dot(d, light.tangent.xyz), dot(d, light.bitangent.xyz), dot(d, light.axis.xyz));
 }
 
+vec3 light_vector_from_render(vec3 v) {
+    return vec3(dot(v, light.tangent.xyz), dot(v, light.bitangent.xyz), dot(v, light.axis.xyz));
+}
+
 vec3 render_from_light_vector(vec3 v) {
     return light.tangent.xyz * v.x + light.bitangent.xyz * v.y + light.axis.xyz * v.z;
 }

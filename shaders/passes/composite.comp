@@ -11,6 +11,10 @@ layout(binding = TEX_DIRECT) uniform sampler2D direct_texture;
 #ifdef INDIRECT
 layout(binding = TEX_INDIRECT) uniform sampler2D irradiance_texture;
 #endif
+#ifdef BOUNCED
+#include "lib/bounced.glsl"
+layout(binding = IMG_IN, rgba32ui) readonly uniform uimage2D bounced_image;
+#endif
 #ifdef EMISSION
 layout(binding = TEX_GBUFFER2) uniform sampler2D emission_texture;
 #endif
@@ -29,6 +33,10 @@ void main() {
 #endif
 #ifdef INDIRECT
         color += diffuse_albedo(s) / PI * texelFetch(irradiance_texture, pixel, 0).rgb;
+#endif
+#ifdef BOUNCED
+        BouncedLight bounced = unpack_bounced(imageLoad(bounced_image, pixel));
+        color += (diffuse_albedo(s) / PI * bounced.irradiance + bounced.glossy) / frame.composite.w;
 #endif
 #ifdef WORLD
         // The world's light without occlusion; metals reflect it as well as the rest diffuses it.

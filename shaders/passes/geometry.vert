@@ -4,14 +4,21 @@
 #include "shared/types.h"
 
 layout(location = ATTRIB_POSITION) in vec3 in_position;
-layout(location = ATTRIB_DRAW) in uint in_draw;
 
 layout(std140, binding = UBO_VIEW) uniform ViewBlock {
     ViewUniforms view;
 };
+#ifdef SINGLE_DRAW
+// A draw that stands alone: constant offsets of a uniform block are scalar loads on every driver.
+layout(std140, binding = UBO_DRAW) uniform DrawBlock {
+    GpuDraw draw;
+};
+#else
+layout(location = ATTRIB_DRAW) in uint in_draw;
 layout(std430, binding = SSBO_DRAWS) readonly buffer DrawBlock {
     GpuDraw draws[];
 };
+#endif
 
 #if defined(BASE_COLOR_TEXTURE) || defined(METALLIC_ROUGHNESS_TEXTURE) || defined(NORMAL_TEXTURE) || \
     defined(EMISSION_TEXTURE)
@@ -53,7 +60,9 @@ layout(location = 7) out vec3 out_position;
 #endif
 
 void main() {
+#ifndef SINGLE_DRAW
     GpuDraw draw = draws[in_draw];
+#endif
     vec4 p = vec4(in_position, 1.0);
     vec3 position = vec3(dot(draw.render_from_model[0], p), dot(draw.render_from_model[1], p),
                          dot(draw.render_from_model[2], p));

@@ -21,5 +21,5 @@ void main() {
     float profile = light_profile(safe_normalize(in_light_space, vec3(0.0, 0.0, 1.0))) * squared /
                     max(squared + light.intensity.w, 1e-30);
 #endif
-    out_rsm = pack_rsm(depth, s.normal, diffuse_albedo(s) * profile, s.roughness, s.disney);
+    out_rsm = pack_rsm(depth, s, profile);
 }

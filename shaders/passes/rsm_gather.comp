@@ -68,16 +68,16 @@ vec3 pixel_light_irradiance(Surface s, vec3 v, vec2 st, int layer, float measure
     float geometry = cos_p * cos_s / (squared * squared + cos_p * cos_p * piece / PI);
 #ifdef DISNEY
     vec3 to_receiver = d * inversesqrt(squared);
-    if (p.roughness < 0.0) {
+    if (p.disney) {
         geometry *= disney_diffuse_factor(max(cos_incident, 0.0), dot(p.normal, to_receiver),
-                                          -dot(p.from_light, to_receiver), -p.roughness);
+                                          -dot(p.from_light, to_receiver), p.roughness);
     }
     if (s.disney) {
         geometry *= disney_diffuse_factor(dot(s.normal, -to_receiver), dot(s.normal, v), dot(-to_receiver, v),
                                           s.roughness);
     }
 #endif
-    return p.relative_flux * (geometry * measure / PI);
+    return p.color * ((1.0 - p.metallic) * geometry * measure / PI);
 }
 
 #if MAP_KIND != MAP_CUBE
@@ -112,16 +112,6 @@ vec2 center_in_map(vec3 position) {
 #endif
 }
 
-// What an area of the map (in its -1 to 1 coordinates) at st measures.
-float map_measure(vec2 st, float area) {
-#if MAP_KIND == MAP_PERSPECTIVE
-    float t2 = light.axis.w * light.axis.w;
-    float c2 = 1.0 / (1.0 + t2 * dot(st, st));
-    return area * t2 * c2 * sqrt(c2);
-#else
-    return area * light.tangent.w * light.bitangent.w;
-#endif
-}
 #endif
 
 vec3 gather(Surface s, vec3 v) {
@@ -133,12 +123,7 @@ vec3 gather(Surface s, vec3 v) {
         vec3 row = vec3(0.0);  // rows apart: a float sum over every texel would lose digits
         for (int x = 0; x < size; ++x) {
             vec2 st = (vec2(x, y) + 0.5) * texel - 1.0;
-#if MAP_KIND == MAP_CUBE
-            float c2 = 1.0 / (1.0 + dot(st, st));
-            row += pixel_light_irradiance(s, v, st, full_sum_rows.x, texel * texel * c2 * sqrt(c2));
-#else
-            row += pixel_light_irradiance(s, v, st, 0, map_measure(st, texel * texel));
-#endif
+            row += pixel_light_irradiance(s, v, st, full_sum_rows.x, map_measure(st, texel * texel));
         }
         sum += row;
     }

@@ -34,7 +34,7 @@ void main() {
 #elif LAYER == 2
             color = p.normal * 0.5 + 0.5;
 #else
-            color = p.relative_flux;
+            color = p.color * (1.0 - p.metallic);
 #endif
         }
     }

@@ -8,13 +8,24 @@
 #define UBO_FRAME 0
 #define UBO_VIEW 1
 #define UBO_LIGHT 2
+#define UBO_ISM 3
+#define UBO_DRAW 5
 
-// Storage buffers.
+// Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
 #define SSBO_MATERIALS 1
 #define SSBO_PATTERN 3
 #define SSBO_PIXEL_LIST 4
 #define SSBO_DISPATCH 5
+#define SSBO_POINT_SOURCES 3
+#define SSBO_POINT_SURFACES 4
+#define SSBO_POINT_MATERIALS 0
+#define SSBO_VPLS_OUT 2
+#define SSBO_ROW_SUMS 5
+#define SSBO_TEXEL_SUMS 3
+#define SSBO_VPLS 6
+#define SSBO_POINTS 7
+#define SSBO_TRIANGLES 7
 #define SSBO_DEFORM_JOBS 0
 #define SSBO_POSITIONS 1
 #define SSBO_NORMALS 2
@@ -39,10 +50,14 @@
 #define TEX_INDIRECT 11
 #define TEX_LOWRES 12
 #define TEX_GEOMETRIC_NORMAL 13
+#define TEX_ISM 14
 
 // Image units.
 #define IMG_OUT 0
 #define IMG_OUT1 1
+#define IMG_IN 2
+#define IMG_ISM 3
+#define IMG_RSM 4
 
 // Vertex attributes.
 #define ATTRIB_POSITION 0
@@ -57,5 +72,18 @@
 // screen is mostly one surface.
 #define GROUP_2D 8
 #define GROUP_1D 64
+// One group sums a row of a map, or scans all row sums.
+#define GROUP_ROW 64
+#define GROUP_SCAN 256
+// Virtual point lights that one dispatch of the gather evaluates at most, unrolled: their data are then read at constant
+// offsets of a uniform block, which every driver turns into scalar loads.
+#define VPL_CHUNK 16
+// Samples of each map that the near field takes at a pixel: 8 or 16.
+#define NEAR_SAMPLES 8
+// One group splats the points of one imperfect shadow map.
+#define GROUP_SPLAT 128
+// Tiles of such a map, and the triangles that one dispatch draws into it.
+#define GROUP_MAP_TILE 16
+#define TRIANGLE_CHUNK 16
 
 #endif

@@ -30,7 +30,7 @@ struct FrameUniforms {
     ivec4 size;             // width, height, low-resolution step (pixels), RSM samples
     vec4 interpolation;     // cos of the largest normal difference, largest plane distance in footprints,
                             // radius of a pixel's footprint at distance 1 (or its half size, orthographic), -
-    vec4 composite;         // film exposure, direct on, indirect on, -
+    vec4 composite;         // film exposure, direct on, indirect on, scale of bounced light in half floats
 };
 
 // One rasterised view: the camera or a face of a light.
@@ -64,6 +64,44 @@ struct GpuDraw {
     vec4 render_from_model[3];  // rows
     vec4 normal_from_model[3];  // rows of the cofactor matrix (xyz)
     ivec4 ids;                  // material, 1 where the transform mirrors, -, -
+};
+
+// A virtual point light: one sample of what the lights' reflective shadow maps reflect.
+struct GpuVpl {
+    vec4 position;          // xyz render space; w: surface area it stands for
+    vec4 normal;            // xyz unit; w: roughness of the diffuse lobe, negative where it is Disney's
+    vec4 tangent;           // xyz unit, s axis of its shadow map; w: 1 / squared near radius
+    vec4 bitangent;         // xyz unit, t axis of its shadow map; w: place of its map in the atlas, 16 bits each
+    vec4 intensity;         // rgb: diffusely reflected flux / pi, W/sr along the normal; w: (1 - cos)^5 at incidence
+    vec4 incident;          // xyz unit, the direction light arrives along; w: cosine of incidence
+    vec4 glossy;            // rgb: arriving flux times the glossy lobe's reflectance at normal incidence;
+                            // w: alpha^2 of the lobe
+    vec4 arriving;          // rgb: arriving flux, what that reflectance rises to at grazing incidence;
+                            // w: Smith's term of the incident direction
+};
+
+// The imperfect shadow maps of a frame: square maps of one size in one atlas, row by row.
+struct IsmUniforms {
+    ivec4 atlas;            // map size (texels), maps a row, maps, points a map
+    ivec4 points;           // points in the sequence, place of its first one, reflective maps: size of
+                            // the lights' shadow maps, -
+    vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii;
+                            // constant bias; bias by slope, in texels
+    ivec4 gather;           // interleave n, VPLs a subset, places of the VPL buffer a subset,
+                            // columns of a subset's cells
+};
+
+// A point of the scene's surfaces as it was sampled; see scene/points.
+struct GpuPointSource {
+    uvec4 place;            // three vertices in the position stream, surface
+    vec4 weights;           // barycentric of the second and third vertex, share of the triangle's area, negated
+                            // on a large plane; w: its place in the sequence, uint bits
+};
+
+// Where a surface stands at this pose.
+struct GpuPointSurface {
+    vec4 render_from_model[3];  // rows
+    ivec4 ids;                  // material, 1 where it is drawn, -, -
 };
 
 struct DeformJob {

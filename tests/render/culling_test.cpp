@@ -41,7 +41,9 @@ TEST_F(ExecutedPasses, EmptySceneDrawsNothingButThePicture) {
 TEST_F(ExecutedPasses, SpotWithInterpolatedRsm) {
     scene::Scene scene = floor();
     add_light(scene, spot(), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 2.0)));
-    EXPECT_EQ(run(scene, {}),
+    Settings settings;
+    settings.technique = Technique::rsm;
+    EXPECT_EQ(run(scene, settings),
               (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "rsm: Spot",
                       "rsm gather, low resolution", "rsm interpolate", "rsm gather, rest", "composite"}));
 }
@@ -59,6 +61,7 @@ TEST_F(ExecutedPasses, IndirectOnlyHasNoShadowMap) {
     scene::Scene scene = floor();
     add_light(scene, spot(), glm::dmat4(1.0));
     Settings settings;
+    settings.technique = Technique::rsm;
     settings.show = Show::indirect;
     settings.interpolate = false;
     EXPECT_EQ(run(scene, settings), (Passes{"gbuffer", "rsm: Spot", "rsm gather", "composite"}));

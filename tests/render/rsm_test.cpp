@@ -43,6 +43,7 @@ Settings small(int samples) {
     Settings settings;
     settings.width = 48;
     settings.height = 32;
+    settings.technique = Technique::rsm;
     settings.show = Show::indirect;
     settings.rsm_samples = samples;
     settings.interpolate = false;

@@ -133,8 +133,9 @@ TEST_F(BrdfGlsl, AWhiteMetalNeverGivesBackMoreThanItGets) {
 }
 
 TEST_F(BrdfGlsl, RoughMetalLosesWhatOneScatteringLoses) {
-    // Height-correlated GGX with a white metal, by another integrator over another variable, from the
-    // published form of the masking (Heitz 2014, eq. 99) in place of the shader's folded one.
+    // GGX with a white metal, masking towards light and viewer independent as in Cycles before 4.0, by
+    // another integrator over another variable, from the published form of the masking (Walter et al. 2007,
+    // eq. 23 and 34) in place of the shader's folded one.
     const auto reference = [](double alpha, double cos_v) {
         // Uniform over the hemisphere of l, midpoint rule, all in doubles.
         constexpr int steps = 1000;
@@ -153,7 +154,7 @@ TEST_F(BrdfGlsl, RoughMetalLosesWhatOneScatteringLoses) {
                 const glm::dvec3 h = glm::normalize(l + v);
                 const double t = h.z * h.z * (alpha * alpha - 1.0) + 1.0;
                 const double d = alpha * alpha / (pi * t * t);
-                const double g = 1.0 / (1.0 + lambda(cos_v) + lambda(z));
+                const double g = 1.0 / ((1.0 + lambda(cos_v)) * (1.0 + lambda(z)));
                 sum += d * g / (4.0 * cos_v);
             }
         }

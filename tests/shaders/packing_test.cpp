@@ -75,9 +75,9 @@ class RsmTexel : public ShaderTest {
                                                   : static_cast<double>(setup.gpu.map.z) / depth;
                     const glm::dvec4 p = render_from_clip * glm::dvec4(st, clip_depth, 1.0);
                     points.emplace_back(glm::dvec3(p) / p.w);
-                    pack.emplace_back(glm::dvec4(depth, 0.0, 0.0, 0.3));
+                    pack.emplace_back(glm::dvec4(depth, static_cast<double>(n % 16) / 15.0, 0.5, 0.3));
                     pack.emplace_back(glm::vec3(normals[n]), static_cast<float>(n % 2));
-                    pack.emplace_back(0.8F, 1e-3F, 0.25F, 0.0F);
+                    pack.emplace_back(1.6F, 2e-3F, 0.5F, 0.5F);  // half of it by the light's profile
                     // Not the middle: a sample anywhere in the texel reads the texel's own ray.
                     places.emplace_back(glm::dvec4(st + glm::dvec2(0.7 / size, -0.7 / size), layer, 0.0));
                 }
@@ -91,23 +91,27 @@ class RsmTexel : public ShaderTest {
         glTextureSubImage3D(map.id(), 0, 0, 0, 0, size, size, layers, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                             bits.data());
         map.bind(TEX_RSM);
-        const std::vector<glm::vec4> out = run("rsm_texel.comp", 1, 4, places, defines);
+        const std::vector<glm::vec4> out = run("rsm_texel.comp", 1, 5, places, defines);
         const glm::dvec3 light_position(glm::vec3(setup.gpu.position));
         for (size_t i = 0; i < points.size(); ++i) {
-            EXPECT_EQ(out[4 * i].w, 1.0F) << "something was hit";
-            ASSERT_LT(glm::length(glm::dvec3(glm::vec3(out[4 * i])) - points[i]), 2e-5) << i;
-            ASSERT_LT(angle_between(glm::dvec3(glm::vec3(out[4 * i + 1])), normals[i]), 6.6e-5);
-            const glm::vec4 flux = out[4 * i + 2];
+            EXPECT_EQ(out[5 * i].w, 1.0F) << "something was hit";
+            ASSERT_LT(glm::length(glm::dvec3(glm::vec3(out[5 * i])) - points[i]), 2e-5) << i;
+            ASSERT_LT(angle_between(glm::dvec3(glm::vec3(out[5 * i + 1])), normals[i]), 6.6e-5);
+            const glm::vec4 flux = out[5 * i + 2];
             ASSERT_NEAR(flux.x / 0.8F, 1.0F, 1e-3F) << "a half has 11 bits";
             ASSERT_NEAR(flux.y / 1e-3F, 1.0F, 1e-3F);
             ASSERT_NEAR(flux.z / 0.25F, 1.0F, 1e-3F);
-            ASSERT_NEAR(flux.w, i % 2 == 1 ? -0.3F : 0.3F, 3e-4F) << "its sign is the diffuse model";
+            ASSERT_NEAR(flux.w, 0.3F, 0.5F / 127.0F) << "roughness has 7 bits";
+            const glm::vec4 lobes = out[5 * i + 4];
+            ASSERT_NEAR(lobes.x, static_cast<float>(i % 16) / 15.0F, 1e-6F) << "metallic has 4 bits";
+            ASSERT_NEAR(lobes.y, 0.5F, 1e-6F) << "specular has 4 bits, up to 15/8";
+            ASSERT_EQ(lobes.z, i % 2 == 1 ? 1.0F : 0.0F) << "the diffuse model";
             if (setup.map_kind == MAP_ORTHOGRAPHIC) {
-                ASSERT_LT(glm::length(glm::vec3(out[4 * i + 3]) - glm::vec3(setup.gpu.axis)), 1e-6F);
+                ASSERT_LT(glm::length(glm::vec3(out[5 * i + 3]) - glm::vec3(setup.gpu.axis)), 1e-6F);
             } else {
                 const glm::dvec3 way = points[i] - light_position;
-                ASSERT_LT(angle_between(glm::dvec3(glm::vec3(out[4 * i + 3])), way), 1e-4);
-                ASSERT_NEAR(static_cast<double>(out[4 * i + 3].w) / glm::dot(way, way), 1.0, 1e-3);
+                ASSERT_LT(angle_between(glm::dvec3(glm::vec3(out[5 * i + 3])), way), 1e-4);
+                ASSERT_NEAR(static_cast<double>(out[5 * i + 3].w) / glm::dot(way, way), 1.0, 1e-3);
             }
         }
     }
@@ -143,13 +147,13 @@ TEST_F(RsmTexel, AnEmptyTexelIsNoLight) {
     constexpr std::array<GLuint, 4> nothing{};
     glClearTexImage(map.id(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nothing.data());
     map.bind(TEX_RSM);
-    const std::vector<glm::vec4> out = run("rsm_texel.comp", 1, 4, {glm::vec4(0.1F, 0.2F, 0.0F, 0.0F)},
+    const std::vector<glm::vec4> out = run("rsm_texel.comp", 1, 5, {glm::vec4(0.1F, 0.2F, 0.0F, 0.0F)},
                                            {{"MAP_KIND", std::to_string(setup.map_kind)}, {"PROFILE", "1"}});
     EXPECT_EQ(out[0].w, 0.0F);
 }
 
 TEST_F(RsmTexel, DisneyWithoutRoughnessIsStillDisney) {
-    // The sign carries the model, so a roughness of 0 is kept as a little more.
+    // The model has a bit of its own: no roughness turns it off.
     const std::vector<glm::vec4> bits =
         run("rsm_texel.comp", 3, 1,
             {glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 0.0F, 1.0F, 1.0F), glm::vec4(1.0F)},

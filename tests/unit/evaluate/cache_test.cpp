@@ -100,7 +100,7 @@ TEST(CacheName, EveryInputCounts) {
     add([](ReferenceKey& key) { key.width = 641; });
     add([](ReferenceKey& key) { key.height = 361; });
     add([](ReferenceKey& key) { key.spp = 512; });
-    add([](ReferenceKey& key) { key.diffuse_bounces = 2; });
+    add([](ReferenceKey& key) { key.bounces = 2; });
     add([](ReferenceKey& key) { key.blender = "Blender 4.2.0"; });
     add([](ReferenceKey& key) { key.scripts_hash = "other"; });
     EXPECT_EQ(names.size(), 9U);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gpu/render_space.h"
+#include "gpu/shared_types.h"
+#include "gpu/vertex_store.h"
+#include "scene/points/hull.h"
+#include "scene/points/point_set.h"
+
+namespace bounce::gpu {
+
+// A run of points, as they stand in the buffer of sources.
+struct PointRun {
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+// The scene's points on the GPU: which triangle each lies on, uploaded once, and where it is at this pose, which
+// the point update pass writes for surfaces that changed.
+class PointStore {
+  public:
+    PointStore(const scene::Scene& scene, int animation);
+
+    // drop_hull: surfaces on the scene's hull hide nothing. Samples points where the counts or the surfaces on the hull changed, and finds out what moved since
+    // update_done() was last called.
+    void set_pose(const scene::Pose& pose, const RenderSpace& space, const VertexStore& vertices,
+                  const scene::PointCounts& wanted, bool drop_hull);
+
+    // Sources whose surfaces changed; and whether those of large triangles did.
+    [[nodiscard]] const std::vector<PointRun>& changed() const { return changed_; }
+    [[nodiscard]] bool any_changed() const { return !changed_.empty() || large_changed_; }
+    void update_done();
+
+    [[nodiscard]] size_t large_triangles() const { return set_.large.size(); }
+    [[nodiscard]] size_t occluders() const { return set_.occluders.size(); }
+    [[nodiscard]] size_t reflectors() const { return set_.reflectors.size(); }
+    [[nodiscard]] double occluder_area_m2() const { return set_.occluder_area_m2; }
+    [[nodiscard]] double reflector_area_m2() const { return set_.reflector_area_m2; }
+    // Area of what may hide something at this pose, before any point is sampled; metres^2.
+    [[nodiscard]] double occluding_area_m2(const scene::Pose& pose, bool drop_hull);
+    [[nodiscard]] const scene::SurfaceParts& parts() const { return parts_; }
+
+    // uvec4 a point (shaders/lib/points.glsl): occluders, then reflectors.
+    [[nodiscard]] gl::Buffer& points() { return points_; }
+    // Three vec4 a triangle, render space.
+    [[nodiscard]] gl::Buffer& triangles() { return triangles_; }
+    void bind_for_update() const;
+    // Materials and surfaces of the points, for shaders/lib/irsm.glsl.
+    void bind_materials() const;
+    void bind_for_triangle_update() const;
+
+  private:
+    [[nodiscard]] glm::uvec4 place(uint32_t surface, uint32_t triangle, const VertexStore& vertices) const;
+    void upload_materials();
+    void upload(const VertexStore& vertices);
+    void find_changes(const std::vector<GpuPointSurface>& now);
+    std::vector<bool> on_hull(const scene::Pose& pose, bool drop_hull);
+
+    const scene::Scene& scene_;
+    scene::SurfaceParts parts_;
+    scene::HullFinder hull_finder_;
+    std::vector<bool> on_hull_;
+    std::vector<bool> sampled_on_hull_;
+    std::vector<scene::DrawInstance> hull_draws_;  // of the pose that on_hull_ is for
+    scene::PointSet set_;
+    scene::PointCounts wanted_;
+    std::vector<PointRun> surface_runs_;  // one a surface
+    std::vector<GpuPointSurface> surfaces_;
+    std::vector<GpuPointSurface> updated_surfaces_;
+    std::vector<PointRun> changed_;
+    bool large_changed_ = false;
+    gl::Buffer triangle_sources_, triangles_, point_materials_;
+    gl::Buffer sources_, surface_buffer_, points_;
+    const gl::Buffer* positions_ = nullptr;
+};
+
+}  // namespace bounce::gpu

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/ism.h"
+
+#include <algorithm>
+
+namespace bounce::passes {
+namespace {
+
+// The largest map that a group holds in 32 KiB of shared memory, with the pyramid of pull-push.
+constexpr int k_largest_shared_map = 64;
+// Overlap of pull-push tiles: more than the reach of three levels and their interpolation.
+constexpr int k_border = 16;
+constexpr GLuint k_empty = 0x7bff0000U;  // ISM_EMPTY
+
+bool fits_shared(const VplSet& set) {
+    return set.map_size <= k_largest_shared_map;
+}
+
+gl::TextureDesc atlas_desc(const VplSet& set, GLenum format) {
+    return {.format = format, .width = set.columns * set.map_size, .height = set.rows * set.map_size};
+}
+
+void bind_set(const PassContext& context, const PassResources& resources, const VplSet& set) {
+    context.uniforms.bind(UBO_ISM, set.uniforms);
+    resources.buffer(set.vpls).bind_storage(SSBO_VPLS);
+}
+
+gl::Defines pull_push_defines(const PullPushSettings& settings) {
+    gl::Defines defines{{"LEVELS", std::to_string(settings.mode == PullPush::off ? 0 : settings.levels)}};
+    if (settings.mode == PullPush::paper) defines["PAPER"] = "1";
+    return defines;
+}
+
+void clear_atlas(const gl::Texture& atlas) {
+    glClearTexImage(atlas.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &k_empty);
+}
+
+void dispatch_splats(const VplSet& set) {
+    const auto parts =
+        fits_shared(set) ? 1U : static_cast<GLuint>((set.points_a_map + GROUP_SPLAT - 1) / GROUP_SPLAT);
+    glDispatchCompute(static_cast<GLuint>(set.maps), parts, 1);
+    finish_writes();
+}
+
+TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
+                            const VplSet& set) {
+    TextureHandle out;
+    graph.add_pass("ism triangles", [&](PassBuilder& builder) {
+        builder.read(inputs.scene.triangles);
+        builder.read(set.vpls);
+        out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        return [context, inputs, set, out](const PassResources& resources) {
+            bind_set(context, resources, set);
+            resources.buffer(inputs.scene.triangles).bind_storage(SSBO_TRIANGLES);
+            resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
+            const auto tiles = static_cast<GLuint>(set.map_size / GROUP_MAP_TILE);
+            gl::Defines defines;
+            for (int first = 0; first < inputs.large_triangles; first += TRIANGLE_CHUNK) {
+                defines["TRIANGLE_COUNT"] =
+                    std::to_string(std::min(TRIANGLE_CHUNK, inputs.large_triangles - first));
+                context.programs.compute("passes/ism_triangles.comp", defines).use();
+                glUniform1i(0, first);
+                glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
+                finish_writes();
+                defines["NEXT_TRIANGLES"] = "1";
+            }
+        };
+    });
+    return out;
+}
+
+// over: an atlas with triangles, or invalid.
+TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
+                        const VplSet& set, TextureHandle over) {
+    TextureHandle out;
+    graph.add_pass("ism disks", [&](PassBuilder& builder) {
+        builder.read(inputs.scene.points);
+        builder.read(set.vpls);
+        out = over.valid() ? builder.write(over)
+                           : builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        const bool has_triangles = over.valid();
+        return [context, inputs, set, out, has_triangles](const PassResources& resources) {
+            gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
+            if (fits_shared(set)) defines["SHARED"] = "1";
+            if (has_triangles) defines["OVER_TRIANGLES"] = "1";
+            if (!fits_shared(set) && !has_triangles) clear_atlas(resources.texture(out));
+            context.programs.compute("passes/ism_disks.comp", defines).use();
+            bind_set(context, resources, set);
+            resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
+            resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
+            dispatch_splats(set);
+        };
+    });
+    return out;
+}
+
+TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const PullPushSettings& settings,
+                            const VplSet& set, TextureHandle splats, bool from_depth) {
+    TextureHandle out;
+    graph.add_pass("ism pull-push", [&](PassBuilder& builder) {
+        builder.read(splats);
+        out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        return [context, settings, set, splats, from_depth, out](const PassResources& resources) {
+            const int side = std::min(set.map_size, k_largest_shared_map);
+            const int border = side < set.map_size ? k_border : 0;
+            gl::Defines defines = pull_push_defines(settings);
+            defines["SIDE"] = std::to_string(side);
+            defines["BORDER"] = std::to_string(border);
+            if (from_depth) defines["FROM_DEPTH"] = "1";
+            context.programs.compute("passes/ism_pull_push.comp", defines).use();
+            context.uniforms.bind(UBO_ISM, set.uniforms);
+            glUniform2f(0, settings.pull_threshold, settings.push_threshold);
+            if (from_depth) {
+                resources.texture(splats).bind(TEX_DEPTH);
+            } else {
+                resources.texture(splats).bind_image(IMG_IN, GL_READ_ONLY);
+            }
+            resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
+            const int core = side - 2 * border;
+            const auto tiles = static_cast<GLuint>((set.map_size + core - 1) / core);
+            glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
+            finish_writes();
+        };
+    });
+    return out;
+}
+
+// Squares in compute; where a map fits into shared memory its holes are filled in the same pass.
+IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
+                     const VplSet& set) {
+    IsmAtlas out;
+    const bool fused = fits_shared(set) && inputs.pull_push.mode != PullPush::off;
+    graph.add_pass("ism squares", [&](PassBuilder& builder) {
+        builder.read(inputs.scene.points);
+        builder.read(set.vpls);
+        out.splats = builder.create_texture("ism splats", atlas_desc(set, GL_R32UI));
+        out.atlas = fused ? builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI)) : out.splats;
+        return [context, inputs, set, fused, out](const PassResources& resources) {
+            gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
+            if (fits_shared(set)) {
+                defines["SHARED"] = "1";
+            } else {
+                clear_atlas(resources.texture(out.splats));
+            }
+            if (fused) defines.merge(pull_push_defines(inputs.pull_push));
+            context.programs.compute("passes/ism_squares.comp", defines).use();
+            bind_set(context, resources, set);
+            resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
+            resources.texture(out.splats).bind_image(IMG_OUT, GL_READ_WRITE);
+            if (fused) {
+                resources.texture(out.atlas).bind_image(IMG_OUT1, GL_WRITE_ONLY);
+                glUniform2f(0, inputs.pull_push.pull_threshold, inputs.pull_push.push_threshold);
+            }
+            dispatch_splats(set);
+        };
+    });
+    if (!fused && inputs.pull_push.mode != PullPush::off) {
+        out.atlas = add_pull_push(graph, context, inputs.pull_push, set, out.splats, false);
+    }
+    return out;
+}
+
+TextureHandle add_gl_points(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
+                            const VplSet& set) {
+    TextureHandle out;
+    graph.add_pass("ism points", [&](PassBuilder& builder) {
+        builder.read(inputs.scene.points);
+        builder.read(set.vpls);
+        out = builder.create_texture("ism depth", atlas_desc(set, GL_DEPTH_COMPONENT32F));
+        return [context, inputs, set, out](const PassResources& resources) {
+            const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(out)});
+            target.bind();
+            const float far_depth = 0.0F;
+            glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
+            context.programs.raster("passes/ism_points.vert", "passes/ism_points.frag", {}).use();
+            bind_set(context, resources, set);
+            resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
+            context.scene.bind_vertex_array();  // nothing is read from it, but a core profile wants one
+            glUniform2f(0, static_cast<float>(set.columns * set.map_size),
+                        static_cast<float>(set.rows * set.map_size));
+            glEnable(GL_DEPTH_TEST);
+            glEnable(GL_PROGRAM_POINT_SIZE);
+            glDrawArrays(GL_POINTS, 0, set.maps * set.points_a_map);
+            glDisable(GL_PROGRAM_POINT_SIZE);
+            glDisable(GL_DEPTH_TEST);
+            finish_writes();
+        };
+    });
+    return out;
+}
+
+}  // namespace
+
+IsmAtlas add_ism(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs, const VplSet& set) {
+    switch (inputs.splat) {
+        case Splat::compute:
+            return add_squares(graph, context, inputs, set);
+        case Splat::points: {
+            const TextureHandle depth = add_gl_points(graph, context, inputs, set);
+            // The same pass turns depths into what the gather reads, also where no hole is to be filled.
+            PullPushSettings unfilled = inputs.pull_push;
+            unfilled.mode = PullPush::off;
+            return {add_pull_push(graph, context, unfilled, set, depth, true),
+                    add_pull_push(graph, context, inputs.pull_push, set, depth, true)};
+        }
+        case Splat::disks:
+            break;
+    }
+    const TextureHandle triangles =
+        inputs.large_triangles > 0 ? add_triangles(graph, context, inputs, set) : TextureHandle{};
+    return {{}, add_disks(graph, context, inputs, set, triangles)};
+}
+
+}  // namespace bounce::passes

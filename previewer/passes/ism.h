@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "passes/point_update.h"
+
+namespace bounce::passes {
+
+// How points are drawn into imperfect shadow maps. In all a splat covers the solid angle of the area that its
+// point stands for.
+enum class Splat {
+    disks,    // oriented disks with the plane's depth at each texel, compute
+    compute,  // squares of one depth, compute, atomic minimum
+    points,   // squares of one depth, GL_POINTS and the depth test (Ritschel et al. 2008, 3.2)
+};
+
+// What pull-push does to a map drawn with one depth a splat.
+enum class PullPush {
+    off,
+    fill,   // fills holes
+    paper,  // and replaces what lies behind the pushed depths by more than the threshold
+};
+
+struct PullPushSettings {
+    PullPush mode = PullPush::fill;
+    int levels = 2;
+    // Depths this near are averaged on the way up; farther off they are replaced on the way down. Render units (the
+    // scene's extent is 1), at the finest level; each coarser one doubles them.
+    float pull_threshold = 0.05F;
+    float push_threshold = 0.05F;
+};
+
+// The virtual point lights of one bounce and where their maps are.
+struct VplSet {
+    BufferHandle vpls;
+    TextureHandle atlas;               // invalid: they are not occluded
+    gpu::UniformArena::Slot uniforms;  // IsmUniforms
+    int maps = 0;
+    int map_size = 0;  // texels
+    int columns = 0;   // maps a row of the atlas
+    int rows = 0;
+    int points_a_map = 0;
+    int interleave = 1;     // n: each pixel gathers from an n x n-th of the lights
+    int subset = 0;         // lights in such a part
+    int subset_places = 0;  // places of the buffer it takes
+    int cell_columns = 1;   // of a subset's cells of the sampled square
+};
+
+struct IsmInputs {
+    ScenePoints scene;
+    int large_triangles = 0;
+    Splat splat = Splat::disks;
+    PullPushSettings pull_push;
+};
+
+// Imperfect shadow maps of a set of lights, in one atlas of R32UI (shaders/lib/ism.glsl).
+struct IsmAtlas {
+    TextureHandle splats;  // before pull-push; invalid where there is none
+    TextureHandle atlas;
+};
+[[nodiscard]] IsmAtlas add_ism(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
+                               const VplSet& set);
+
+}  // namespace bounce::passes

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/near_field.h"
+
+#include <array>
+
+namespace bounce::passes {
+
+TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, const NearFieldInputs& inputs,
+                             const GatheredLight& light) {
+    const int tiles_x = (context.width + GROUP_2D - 1) / GROUP_2D;
+    const int tiles_y = (context.height + GROUP_2D - 1) / GROUP_2D;
+    const int tiles = tiles_x * tiles_y;
+    BufferHandle list;
+    BufferHandle counts;
+    graph.add_pass("near tiles", [&](PassBuilder& builder) {
+        builder.read(light.reach);
+        list = builder.create_buffer("near tiles", static_cast<size_t>(tiles) * 2 * sizeof(GLuint));
+        counts = builder.create_buffer("near tiles dispatch", 4 * sizeof(GLuint));
+        return [context, light, tiles, list, counts](const PassResources& resources) {
+            constexpr std::array<GLuint, 4> none = {0, 1, 1, 0};
+            resources.buffer(counts).update(std::span<const GLuint>(none));
+            context.programs.compute("passes/near_tiles.comp").use();
+            context.uniforms.bind(UBO_FRAME, context.frame);
+            resources.texture(light.reach).bind_image(IMG_IN, GL_READ_ONLY);
+            resources.buffer(list).bind_storage(SSBO_PIXEL_LIST);
+            resources.buffer(counts).bind_storage(SSBO_DISPATCH);
+            glDispatchCompute((static_cast<GLuint>(tiles) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+            finish_writes();
+        };
+    });
+    TextureHandle out;
+    graph.add_pass("near field", [&](PassBuilder& builder) {
+        read_gbuffer(builder, inputs.gbuffer);
+        for (const VplSource& source : inputs.sources) {
+            builder.read(source.rsm);
+        }
+        builder.read(inputs.importance.rows);
+        builder.read(list);
+        builder.read(counts);
+        out = builder.write(light.bounced);
+        return [context, inputs, list, counts, out](const PassResources& resources) {
+            context.uniforms.bind(UBO_FRAME, context.frame);
+            context.uniforms.bind(UBO_ISM, inputs.uniforms);
+            bind_gbuffer(resources, inputs.gbuffer);
+            resources.buffer(list).bind_storage(SSBO_PIXEL_LIST);
+            resources.buffer(inputs.importance.rows).bind_storage(SSBO_ROW_SUMS);
+            resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
+            glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(counts).id());
+            for (const VplSource& source : inputs.sources) {
+                gl::Defines defines = light_defines(source.light);
+                if (inputs.glossy) defines["GLOSSY"] = "1";
+                if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
+                context.programs.compute("passes/near_field.comp", defines).use();
+                context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
+                resources.texture(source.rsm).bind_image(IMG_RSM, GL_READ_ONLY);
+                glUniform1i(0, inputs.importance.row_count);
+                glDispatchComputeIndirect(0);
+                finish_writes();
+            }
+        };
+    });
+    return out;
+}
+
+}  // namespace bounce::passes

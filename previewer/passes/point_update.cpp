@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/point_update.h"
+
+#include <algorithm>
+
+namespace bounce::passes {
+
+namespace {
+
+// OpenGL promises 65,535 groups a dispatch.
+void dispatch_run(GLuint first, GLuint count) {
+    constexpr GLuint most = 65535U * GROUP_1D;
+    for (GLuint done = 0; done < count; done += most) {
+        const GLuint part = std::min(count - done, most);
+        glUniform2ui(0, first + done, part);
+        glDispatchCompute((part + GROUP_1D - 1) / GROUP_1D, 1, 1);
+    }
+}
+
+}  // namespace
+
+ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
+    ScenePoints out{graph.import_buffer("points", store.points()),
+                    graph.import_buffer("large triangles", store.triangles())};
+    if (!store.any_changed()) {
+        return out;
+    }
+    graph.add_pass("points", [&](PassBuilder& builder) {
+        out.points = builder.write(out.points);
+        out.triangles = builder.write(out.triangles);
+        return [context, &store](const PassResources&) {
+            context.programs.compute("passes/point_update.comp").use();
+            store.bind_for_update();
+            for (const gpu::PointRun& run : store.changed()) {
+                dispatch_run(run.first, run.count);
+            }
+            if (store.large_triangles() > 0) {
+                context.programs.compute("passes/point_update.comp", {{"TRIANGLES", "1"}}).use();
+                store.bind_for_triangle_update();
+                dispatch_run(0, static_cast<GLuint>(store.large_triangles()));
+            }
+            finish_writes();
+            store.update_done();
+        };
+    });
+    return out;
+}
+
+}  // namespace bounce::passes

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/vpl_sampling.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace bounce::passes {
+namespace {
+
+// One map, or maps of one kind, as the two shaders see it.
+struct Source {
+    gl::Defines defines;
+    int size = 0;  // texels a row
+    int rows = 0;
+    std::function<void(PassBuilder&)> declare;
+    std::function<void(const PassResources&)> bind;
+};
+
+gl::Defines with_lobes(gl::Defines defines, const PassContext& context, bool glossy) {
+    if (glossy) defines["GLOSSY"] = "1";
+    if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
+    return defines;
+}
+
+DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vector<Source>& sources,
+                   const VplSet& layout, const std::string& of, bool even_rows) {
+    int rows = 0;
+    size_t texels = 0;
+    for (const Source& source : sources) {
+        rows += source.rows;
+        texels += static_cast<size_t>(source.rows) * static_cast<size_t>(source.size);
+    }
+    // Calls visit(source, its first row, its first texel).
+    const auto for_each = [sources](const auto& visit) {
+        int row = 0;
+        int texel = 0;
+        for (const Source& source : sources) {
+            visit(source, row, texel);
+            row += source.rows;
+            texel += source.rows * source.size;
+        }
+    };
+    BufferHandle sums;
+    BufferHandle texel_sums;
+    graph.add_pass("vpl importance" + of, [&](PassBuilder& builder) {
+        for (const Source& source : sources) {
+            source.declare(builder);
+        }
+        sums = builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float));
+        texel_sums = builder.create_buffer("texel sums", texels * sizeof(float));
+        return [context, for_each, rows, sums, texel_sums, even_rows](const PassResources& resources) {
+            for_each([&](const Source& source, int row, int texel) {
+                context.programs.compute("passes/vpl_row_sums.comp", source.defines).use();
+                source.bind(resources);
+                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                glUniform2i(0, row, texel);
+                glDispatchCompute(static_cast<GLuint>(source.rows), 1, 1);
+            });
+            finish_writes();
+            gl::Defines defines;
+            if (even_rows) defines["EVEN"] = "1";
+            context.programs.compute("passes/vpl_scan.comp", defines).use();
+            resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+            glUniform1i(0, rows);
+            glDispatchCompute(1, 1, 1);
+            finish_writes();
+        };
+    });
+    DrawnVpls out{layout, {sums, rows}};
+    graph.add_pass("vpls" + of, [&](PassBuilder& builder) {
+        for (const Source& source : sources) {
+            source.declare(builder);
+        }
+        builder.read(sums);
+        builder.read(texel_sums);
+        const int places = layout.subset_places * layout.interleave * layout.interleave;
+        const BufferHandle vpls =
+            builder.create_buffer("vpls", static_cast<size_t>(places) * sizeof(gpu::GpuVpl));
+        out.set.vpls = vpls;
+        return [context, for_each, layout, rows, sums, texel_sums, vpls](const PassResources& resources) {
+            for_each([&](const Source& source, int row, int texel) {
+                context.programs.compute("passes/vpl_draw.comp", source.defines).use();
+                source.bind(resources);
+                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                resources.buffer(vpls).bind_storage(SSBO_VPLS_OUT);
+                glUniform4i(0, row, source.rows, rows, texel);
+                glUniform4i(1, layout.interleave, layout.subset, layout.subset_places, layout.cell_columns);
+                glUniform3i(2, layout.maps, layout.map_size, layout.columns);
+                glDispatchCompute((static_cast<GLuint>(layout.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+            });
+            finish_writes();
+        };
+    });
+    return out;
+}
+
+// Lights that one is compared with to find how densely they lie.
+constexpr int k_most_compared = 256;
+
+BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const VplSet& set) {
+    BufferHandle out;
+    graph.add_pass("vpl spacing", [&](PassBuilder& builder) {
+        out = builder.write(set.vpls);
+        return [context, set, out](const PassResources& resources) {
+            context.programs.compute("passes/vpl_spacing.comp").use();
+            context.uniforms.bind(UBO_ISM, set.uniforms);
+            resources.buffer(out).bind_storage(SSBO_VPLS_OUT);
+            glUniform1i(0, std::max(set.maps / k_most_compared, 1));
+            glDispatchCompute((static_cast<GLuint>(set.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+            finish_writes();
+        };
+    });
+    return out;
+}
+
+}  // namespace
+
+DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
+                             const std::vector<VplSource>& sources, VplSet layout, bool glossy) {
+    std::vector<Source> all;
+    for (const VplSource& source : sources) {
+        const LightPass& light = source.light;
+        all.push_back({with_lobes(light_defines(light), context, glossy), light.rsm_size,
+                       light.rsm_size * static_cast<int>(light.faces.size()),
+                       [source](PassBuilder& builder) { builder.read(source.rsm); },
+                       [context, source](const PassResources& resources) {
+                           context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
+                           resources.texture(source.rsm).bind(TEX_RSM);
+                       }});
+    }
+    return add_vpls(graph, context, all, layout, "", false);
+}
+
+DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, const IrsmSource& source,
+                              VplSet layout, bool glossy) {
+    gl::Defines defines{{"FROM_IRSM", "1"}};
+    const bool splatted = source.irsm.valid();
+    const TextureHandle map = splatted ? source.irsm : source.atlas;
+    if (splatted) {
+        defines["SPLATTED"] = "1";
+    } else if (map.valid()) {
+        defines["VISIBILITY"] = "1";
+        if (source.slope_bias) defines["SLOPE_BIAS"] = "1";
+    }
+    const Source only{with_lobes(defines, context, glossy),
+                      splatted ? source.set.map_size : source.set.maps,
+                      splatted ? source.set.map_size * source.set.maps : source.set.points_a_map,
+                      [source, map](PassBuilder& builder) {
+                          if (map.valid()) builder.read(map);
+                          builder.read(source.set.vpls);
+                          builder.read(source.scene.points);
+                      },
+                      [context, source, map, splatted](const PassResources& resources) {
+                          context.uniforms.bind(UBO_ISM, source.set.uniforms);
+                          context.scene.bind_materials();
+                          source.store->bind_materials();
+                          resources.buffer(source.scene.points).bind_storage(SSBO_POINTS);
+                          resources.buffer(source.set.vpls).bind_storage(SSBO_VPLS);
+                          if (map.valid()) {
+                              resources.texture(map).bind_image(splatted ? IMG_IN : IMG_ISM, GL_READ_ONLY);
+                          }
+                      }};
+    DrawnVpls drawn = add_vpls(graph, context, {only}, layout, ", next bounce", !splatted);
+    drawn.set.vpls = add_spacing(graph, context, drawn.set);
+    return drawn;
+}
+
+}  // namespace bounce::passes

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "passes/ism.h"
+
+namespace bounce::passes {
+
+// A light and its reflective shadow map.
+struct VplSource {
+    LightPass light;
+    TextureHandle rsm;
+};
+
+// Imperfect reflective shadow maps of a bounce's lights: what the next bounce's are drawn from.
+struct IrsmSource {
+    VplSet set;         // whose lights they are; its uniforms and map size are those of the maps to read
+    TextureHandle irsm;   // as add_irsm() draws them; invalid: the points themselves
+    TextureHandle atlas;  // the lights' shadow maps, which hide points where there is no irsm; may be invalid
+    bool slope_bias = false;  // the shadow maps' splats have one depth each
+    ScenePoints scene;
+    const gpu::PointStore* store = nullptr;
+};
+
+// Running sums of importance over all rows of all maps that lights were drawn from.
+struct VplImportance {
+    BufferHandle rows;
+    int row_count = 0;
+};
+
+// Virtual point lights (GpuVpl) drawn in proportion to the flux that the maps reflect; together they have all of it.
+// Without any flux all are dark. `layout` says how many and where they go; returns it with the buffer filled in.
+// glossy: glossy reflection counts and is kept.
+struct DrawnVpls {
+    VplSet set;
+    VplImportance importance;
+};
+[[nodiscard]] DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
+                                           const std::vector<VplSource>& sources, VplSet layout, bool glossy);
+[[nodiscard]] DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context,
+                                            const IrsmSource& source, VplSet layout, bool glossy);
+
+}  // namespace bounce::passes

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/points/point_set.h"
+
+namespace bounce::scene {
+
+// What textures and vertex colours say at a point; a material's factors are not in it, because they may be animated.
+struct PointMaterial {
+    glm::vec3 base_color{1.0F};  // linear
+    float roughness = 1.0F;
+    float metallic = 1.0F;
+};
+
+// One a point, averaged over the area that the point stands for.
+[[nodiscard]] std::vector<PointMaterial> point_materials(const Scene& scene, const SurfaceParts& parts,
+                                                         const std::vector<PointSample>& points);
+
+// Takes the area away from points that lie where their surface's texture or material cuts a hole: they hide and
+// reflect nothing.
+void drop_cut_out(const Scene& scene, const SurfaceParts& parts, std::vector<PointSample>& points);
+
+}  // namespace bounce::scene

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/points/surface_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "scene/points/deformed_positions.h"
+#include "scene/primitive_bounds.h"
+
+namespace bounce::scene {
+namespace {
+
+size_t at(int index) {
+    return static_cast<size_t>(index);
+}
+
+// A flat piece is followed on its own from this part of the scene's area on: smaller ones cost more to look
+// after than their points cost.
+constexpr double k_least_flat_share = 0.002;
+
+// Triangles count as one plane where normals agree to about half a degree and offsets to this part of the
+// primitive's size.
+constexpr double k_normal_steps = 128.0;
+constexpr double k_offset_steps = 4096.0;
+
+using Positions = std::vector<glm::dvec3>;
+
+Positions model_positions(const Primitive& primitive) {
+    return {primitive.positions.begin(), primitive.positions.end()};
+}
+
+// Twice the area as a vector along the normal.
+glm::dvec3 area_vector(const Primitive& primitive, const Positions& p, uint32_t triangle) {
+    const uint32_t* index = &primitive.indices[3 * static_cast<size_t>(triangle)];
+    return glm::cross(p[index[1]] - p[index[0]], p[index[2]] - p[index[0]]);
+}
+
+// Interleaves the lowest ten bits of three numbers.
+uint32_t morton(const glm::uvec3& v) {
+    uint32_t code = 0;
+    for (uint32_t bit = 0; bit < 10; ++bit) {
+        for (int axis = 0; axis < 3; ++axis) {
+            code |= ((v[axis] >> bit) & 1U) << (3 * bit + static_cast<uint32_t>(axis));
+        }
+    }
+    return code;
+}
+
+// Triangles that lie near each other stand near each other, so that points even in area are even in space.
+void sort_along_curve(const Primitive& primitive, const Positions& p, std::vector<uint32_t>& triangles) {
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const glm::dvec3& position : p) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const glm::dvec3 cells = 1023.0 / glm::max(high - low, glm::dvec3(1e-300));
+    std::vector<std::pair<uint32_t, uint32_t>> keyed;
+    keyed.reserve(triangles.size());
+    for (const uint32_t triangle : triangles) {
+        const uint32_t* index = &primitive.indices[3 * static_cast<size_t>(triangle)];
+        const glm::dvec3 center = (p[index[0]] + p[index[1]] + p[index[2]]) / 3.0;
+        keyed.emplace_back(morton(glm::uvec3((center - low) * cells)), triangle);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
+}
+
+AreaTable make_table(const Primitive& primitive, const Positions& p, std::vector<uint32_t> triangles) {
+    AreaTable table;
+    sort_along_curve(primitive, p, triangles);
+    table.triangles = std::move(triangles);
+    double sum = 0.0;
+    for (const uint32_t triangle : table.triangles) {
+        const double area = 0.5 * glm::length(area_vector(primitive, p, triangle));
+        sum += std::isfinite(area) ? area : 0.0;
+        table.cumulative.push_back(sum);
+    }
+    return table;
+}
+
+// Triangles of one primitive by the plane they lie in.
+std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive, const Positions& p) {
+    glm::dvec3 size(0.0);
+    for (const glm::dvec3& position : p) {
+        size = glm::max(size, glm::abs(position));
+    }
+    const double offset_step = std::max(glm::length(size), 1e-300) / k_offset_steps;
+    std::map<std::array<int64_t, 4>, std::vector<uint32_t>> planes;
+    const auto count = static_cast<uint32_t>(primitive.indices.size() / 3);
+    for (uint32_t triangle = 0; triangle < count; ++triangle) {
+        const glm::dvec3 area = area_vector(primitive, p, triangle);
+        const double length = glm::length(area);
+        if (!(length > 0.0) || !std::isfinite(length)) {
+            continue;  // a triangle without area is drawn nowhere and hides nothing
+        }
+        const glm::dvec3 normal = area / length;
+        const double offset = glm::dot(normal, p[primitive.indices[3 * static_cast<size_t>(triangle)]]);
+        planes[{std::llround(normal.x * k_normal_steps), std::llround(normal.y * k_normal_steps),
+                std::llround(normal.z * k_normal_steps), std::llround(offset / offset_step)}]
+            .push_back(triangle);
+    }
+    std::vector<std::vector<uint32_t>> out;
+    for (auto& [plane, triangles] : planes) {
+        out.push_back(std::move(triangles));
+    }
+    return out;
+}
+
+double sum_of_areas(const Primitive& primitive, const Positions& p, const std::vector<uint32_t>& triangles) {
+    double sum = 0.0;
+    for (const uint32_t triangle : triangles) {
+        sum += 0.5 * glm::length(area_vector(primitive, p, triangle));
+    }
+    return sum;
+}
+
+// How a rigid transform scales areas: exactly where it scales all directions alike.
+double area_scale(const glm::dmat4& m) {
+    const glm::dvec3 x(m[0]);
+    const glm::dvec3 y(m[1]);
+    const glm::dvec3 z(m[2]);
+    return std::sqrt((glm::dot(x, x) * glm::dot(y, y) + glm::dot(y, y) * glm::dot(z, z) +
+                      glm::dot(z, z) * glm::dot(x, x)) /
+                     3.0);
+}
+
+bool scales_alike(const glm::dmat4& m) {
+    const double x = glm::length(glm::dvec3(m[0]));
+    const double y = glm::length(glm::dvec3(m[1]));
+    const double z = glm::length(glm::dvec3(m[2]));
+    const auto [low, high] = std::minmax({x, y, z});
+    return low > 0.0 && high < 1.01 * low;
+}
+
+// Where a rigid surface stands at the moment its areas are taken from.
+struct Placement {
+    glm::dmat4 world_from_model{1.0};
+    double scale = 0.0;
+};
+
+// The moments that areas are taken from.
+std::vector<Pose> sample_poses(const Scene& scene, int animation) {
+    constexpr int moments = 5;
+    std::vector<Pose> poses;
+    const double length = time_of_frame(scene.frames, scene.frames.end);
+    for (int i = 0; i < moments; ++i) {
+        poses.push_back(evaluate_pose(scene, length * i / (moments - 1), animation));
+        if (!(length > 0.0)) {
+            break;
+        }
+    }
+    return poses;
+}
+
+class Cutter {
+  public:
+    Cutter(const Scene& scene, int animation) : scene_(scene), poses_(sample_poses(scene, animation)) {}
+
+    SurfaceParts cut() {
+        list_surfaces();
+        find_total();
+        for (size_t i = 0; i < out_.surfaces.size(); ++i) {
+            add_parts(static_cast<uint32_t>(i));
+        }
+        return std::move(out_);
+    }
+
+  private:
+    // A primitive's triangles cut once, in model space: one table for each large plane and one for the rest.
+    struct Cut {
+        std::vector<std::shared_ptr<const AreaTable>> tables;
+    };
+
+    void list_surfaces() {
+        for (const int index : scene_.topological_order) {
+            const Node& node = scene_.nodes[at(index)];
+            if (node.mesh == k_none) {
+                continue;
+            }
+            const Mesh& mesh = scene_.meshes[at(node.mesh)];
+            // As evaluate_pose lists draws: a skinned mesh stands where its joints put it, once.
+            const auto instances =
+                node.skin != k_none ? 1 : std::max<int>(static_cast<int>(node.instances.size()), 1);
+            for (int instance = 0; instance < instances; ++instance) {
+                for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+                    const Primitive& primitive = mesh.primitives[p];
+                    if (primitive.indices.empty()) {
+                        continue;
+                    }
+                    const bool deforms = primitive_deforms(node, primitive);
+                    out_.surfaces.push_back({index, instance, node.mesh, static_cast<int>(p), deforms});
+                    placements_.push_back(largest_placement(node, index, instance));
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] Placement largest_placement(const Node& node, int index, int instance) const {
+        Placement best;
+        for (const Pose& pose : poses_) {
+            glm::dmat4 m = node.skin != k_none ? glm::dmat4(1.0) : pose.world_from_node[at(index)];
+            if (node.skin == k_none && !node.instances.empty()) {
+                m = m * node.instances[at(instance)];
+            }
+            if (const double scale = area_scale(m); scale > best.scale && std::isfinite(scale)) {
+                best = {m, scale};
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] const Primitive& primitive_of(const PointSurface& surface) const {
+        return scene_.meshes[at(surface.mesh)].primitives[at(surface.primitive)];
+    }
+
+    const Positions& positions_of(const PointSurface& surface) {
+        const auto key = std::pair(surface.mesh, surface.primitive);
+        const auto found = positions_.find(key);
+        return found != positions_.end()
+                   ? found->second
+                   : positions_.emplace(key, model_positions(primitive_of(surface))).first->second;
+    }
+
+    void find_total() {
+        std::map<std::pair<int, int>, double> model_areas;
+        for (size_t i = 0; i < out_.surfaces.size(); ++i) {
+            const PointSurface& surface = out_.surfaces[i];
+            const Primitive& primitive = primitive_of(surface);
+            const auto [entry, added] = model_areas.try_emplace({surface.mesh, surface.primitive}, 0.0);
+            if (added) {
+                std::vector<uint32_t> all(primitive.indices.size() / 3);
+                std::iota(all.begin(), all.end(), 0U);
+                entry->second = sum_of_areas(primitive, positions_of(surface), all);
+            }
+            const double area = entry->second * placements_[i].scale;
+            total_ += std::isfinite(area) ? area : 0.0;
+            double& largest = largest_scale_[{surface.mesh, surface.primitive}];
+            largest = std::max(largest, placements_[i].scale);
+        }
+    }
+
+    // positions: model space, or world space where `scale` is 1.
+    [[nodiscard]] Cut cut_primitive(const Primitive& primitive, const Positions& positions, double scale,
+                                    bool may_be_flat) const {
+        Cut cut;
+        std::vector<uint32_t> rest;
+        for (std::vector<uint32_t>& triangles : triangles_by_plane(primitive, positions)) {
+            const bool large = may_be_flat && sum_of_areas(primitive, positions, triangles) * scale >=
+                                                  k_least_flat_share * total_;
+            if (!large) {
+                rest.insert(rest.end(), triangles.begin(), triangles.end());
+                continue;
+            }
+            AreaTable table = make_table(primitive, positions, std::move(triangles));
+            const uint32_t first = table.triangles.front();
+            table.flat = true;
+            table.point = glm::dvec3(primitive.positions[primitive.indices[3 * static_cast<size_t>(first)]]);
+            table.normal = glm::normalize(area_vector(primitive, model_positions(primitive), first));
+            cut.tables.push_back(std::make_shared<const AreaTable>(std::move(table)));
+        }
+        if (!rest.empty()) {
+            std::sort(rest.begin(), rest.end());
+            cut.tables.push_back(
+                std::make_shared<const AreaTable>(make_table(primitive, positions, std::move(rest))));
+        }
+        return cut;
+    }
+
+    void add_tables(uint32_t surface, const Cut& cut, double scale) {
+        const int material = primitive_of(out_.surfaces[surface]).material;
+        const bool cut_out =
+            material != k_none && scene_.materials[at(material)].alpha_mode != AlphaMode::opaque;
+        for (const std::shared_ptr<const AreaTable>& table : cut.tables) {
+            const double area = table->cumulative.back() * scale;
+            if (area > 0.0 && std::isfinite(area)) {
+                out_.parts.push_back({surface, table, area, cut_out});
+            }
+        }
+    }
+
+    void add_parts(uint32_t index) {
+        const PointSurface& surface = out_.surfaces[index];
+        const Primitive& primitive = primitive_of(surface);
+        const Placement& placement = placements_[index];
+        if (surface.deforms) {
+            add_tables(index,
+                       cut_primitive(primitive, deformed_positions(scene_, poses_.front(), surface), 1.0, false),
+                       1.0);
+            return;
+        }
+        if (scales_alike(placement.world_from_model)) {
+            const auto key = std::pair(surface.mesh, surface.primitive);
+            auto found = cuts_.find(key);
+            if (found == cuts_.end()) {
+                found = cuts_.emplace(key, cut_primitive(primitive, positions_of(surface),
+                                                         largest_scale_[key], true))
+                            .first;
+            }
+            add_tables(index, found->second, placement.scale);
+            return;
+        }
+        Positions world = positions_of(surface);
+        for (glm::dvec3& position : world) {
+            position = glm::dvec3(placement.world_from_model * glm::dvec4(position, 1.0));
+        }
+        add_tables(index, cut_primitive(primitive, world, 1.0, true), 1.0);
+    }
+
+    const Scene& scene_;
+    std::vector<Pose> poses_;
+    std::vector<Placement> placements_;  // one a surface
+    std::map<std::pair<int, int>, Positions> positions_;
+    std::map<std::pair<int, int>, double> largest_scale_;
+    std::map<std::pair<int, int>, Cut> cuts_;
+    double total_ = 0.0;
+    SurfaceParts out_;
+};
+
+}  // namespace
+
+double SurfaceParts::area_m2() const {
+    return std::accumulate(parts.begin(), parts.end(), 0.0,
+                           [](double sum, const SurfacePart& part) { return sum + part.area_m2; });
+}
+
+SurfaceParts surface_parts(const Scene& scene, int animation) {
+    return Cutter(scene, animation).cut();
+}
+
+}  // namespace bounce::scene

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Imperfect shadow maps (Ritschel et al. 2008): one small parabolic map for each virtual point light, all in one
+// atlas. A texel (ISM_EMPTY where nothing was hit):
+//   high 16 bits  distance of the nearest surface at the texel's centre, half
+//   low 16 bits   how 1/distance changes from the centre by a step of one texel along s and t, over 1/distance, in
+//                 64ths, 8 bits each
+// A plane's 1/distance is linear in the map to first order, so a receiver is compared with the surface where its own
+// ray meets it: a surface does not hide itself, however steep it stands, and nothing leaks at its foot.
+#ifndef LIB_ISM
+#define LIB_ISM
+
+#include "lib/paraboloid.glsl"
+#include "lib/vpl.glsl"
+
+const uint ISM_EMPTY = 0x7bff0000u;  // the largest finite half
+
+// A plane nearer to a light than this, in render units (the scene's diagonal is 1), is the light's own surface.
+const float LEAST_PLANE_DISTANCE = 1e-4;
+
+// What rounding may take from a texel's distance: half a step of a half float, and half a step of each slope at a
+// texel's corner. Each distance is given this much, so that a surface does not hide itself by rounding alone.
+const float ISM_ROUNDING = 1.0 / 2048.0 + 0.5 / 64.0;
+
+uint pack_ism(float distance, vec2 slope) {
+    distance *= 1.0 + ISM_ROUNDING;
+    ivec2 steps = ivec2(clamp(round(slope * 64.0), -127.0, 127.0));
+    return packHalf2x16(vec2(0.0, distance)) | uint(steps.x & 0xff) | uint(steps.y & 0xff) << 8;
+}
+
+// Whether a receiver at a distance is no farther than what the texel holds; from_center: from the texel's centre to
+// the receiver's place in the map, in texels.
+bool ism_lit(uint bits, float distance, vec2 from_center) {
+    float nearest = unpackHalf2x16(bits).y;
+    vec2 slope = vec2(int(bits << 24) >> 24, int(bits << 16) >> 24) / 64.0;
+    return distance * (1.0 + dot(slope, from_center)) <= nearest;
+}
+
+ivec2 ism_origin(int map) {
+    return ivec2(map % ism.atlas.y, map / ism.atlas.y) * ism.atlas.x;
+}
+
+// Coordinates in the frame of a light's map: along its s and t axes and its normal.
+vec3 vpl_from_render(GpuVpl vpl, vec3 offset) {
+    return vec3(dot(offset, vpl.tangent.xyz), dot(offset, vpl.bitangent.xyz), dot(offset, vpl.normal.xyz));
+}
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A point seen from a virtual point light.
+#ifndef LIB_SPLAT
+#define LIB_SPLAT
+
+#include "lib/ism.glsl"
+#include "lib/points.glsl"
+
+struct Splat {
+    vec3 center;    // in the frame of the light's map
+    vec3 normal;    // the same
+    float distance;
+    float radius2;  // squared, of the disk that the point stands for
+    vec2 place;     // in the map, in texels
+    float reach;    // of the disk as seen face on, in texels
+    bool flat_surface;
+};
+
+// False where nothing is to be drawn: the point's surface is hidden; it lies behind the light's tangent plane, where
+// the light sends nothing; or the light lies inside the disk's own sphere, so that the point is no place of its own
+// but part of the surface the light stands on.
+bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
+    SurfacePoint p = unpack_point(bits);
+    s.radius2 = p.radius * p.radius * ism.splat.x;
+    s.center = vpl_from_render(vpl, p.position - vpl.position.xyz);
+    s.normal = vpl_from_render(vpl, p.normal);
+    s.flat_surface = p.flat_surface;
+    float distance2 = dot(s.center, s.center);
+    s.distance = sqrt(distance2);
+    s.place = (paraboloid_project(s.center, s.distance) * 0.5 + 0.5) * map_size;
+    // Lengths on the unit sphere are 1 + z times those in the map.
+    s.reach = sqrt(s.radius2) / max(s.distance + s.center.z, 1e-20) * (0.5 * map_size);
+#ifdef REFLECTORS
+    // A disk may well be near; only one in whose plane the light lies is the surface that the light stands on.
+    bool apart = abs(dot(s.normal, s.center)) > LEAST_PLANE_DISTANCE;
+#else
+    bool apart = distance2 > s.radius2;
+#endif
+    return s.center.z > 0.0 && s.radius2 > 0.0 && apart;
+}
+
+// A map's index-th point: each map takes a block of the sequence.
+int point_place(int map, int index) {
+    return ism.points.y + (map * ism.atlas.w % ism.points.x + index) % ism.points.x;
+}
+
+#endif

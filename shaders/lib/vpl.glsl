@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LIB_VPL
+#define LIB_VPL
+
+#include "shared/bindings.h"
+#include "shared/types.h"
+
+layout(std430, binding = SSBO_VPLS) readonly buffer VplBlock {
+    GpuVpl vpls[];
+};
+
+layout(std140, binding = UBO_ISM) uniform IsmBlock {
+    IsmUniforms ism;
+};
+
+// Where the index-th light stands: each subset begins on an even place, where a uniform block may begin.
+int vpl_place(int index) {
+    return index / ism.gather.y * ism.gather.z + index % ism.gather.y;
+}
+
+#endif

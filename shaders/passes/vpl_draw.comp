@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws virtual point lights from the reflective shadow maps of all lights (FROM_IRSM: from the imperfect ones of all
+// lights of the bounce before), in proportion to the flux reflected.
+//
+// The unit square is cut into one cell for each light; points of it become texels by the running sums, first of
+// rows, then within the row, so equal areas of the square are equal fluxes. A light stands for its cell: it has the
+// mean colour of CHILDREN texels drawn there (the first points of the Halton sequence), and the place, normal and
+// material of that one of them that lies nearest to their middle. The mean makes colours sum up to those of the
+// maps; the middle is a midpoint rule, far more exact than a random place. Runs once for each light source; a cell
+// belongs to the source that its middle row falls into.
+#ifdef FROM_IRSM
+#include "lib/irsm.glsl"
+#else
+#define READ_RSM
+#include "lib/vpl_importance.glsl"
+#endif
+#include "lib/vpl_make.glsl"
+
+layout(local_size_x = GROUP_1D) in;
+layout(location = 0) uniform ivec4 rows;    // this source's first row, its number of rows, rows in all, first texel
+layout(location = 1) uniform ivec4 layout_;  // n, lights a subset, places a subset, columns of a subset's cells
+layout(location = 2) uniform ivec3 maps;     // lights, size of their maps, maps a row of the atlas
+layout(std430, binding = SSBO_VPLS_OUT) writeonly buffer VplOutBlock { GpuVpl drawn[]; };
+
+layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock { float running_sums[]; };
+layout(std430, binding = SSBO_TEXEL_SUMS) readonly buffer TexelBlock { float texel_sums[]; };
+
+const int CHILDREN = 16;
+
+float radical_inverse(uint base, uint i) {
+    float inverse = 1.0 / float(base);
+    float digit = inverse;
+    float value = 0.0;
+    while (i > 0u) {
+        value += float(i % base) * digit;
+        i /= base;
+        digit *= inverse;
+    }
+    return value;
+}
+
+uint hash(uint x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+// The first row whose running sum exceeds the value.
+int find_row(float value) {
+    int low = 0;
+    int high = rows.z - 1;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (running_sums[middle] > value) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+int find_texel(int first, int size, float value) {
+    int low = 0;
+    int high = size - 1;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (texel_sums[first + middle] > value) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+// The texel that a point of the unit square stands for, as its row of all and its column. The row is kept within
+// this light's.
+// weight: of its row, over the importance of the row's texels.
+ivec2 find(vec2 u, out float weight) {
+    int size = source_size();
+    int row = clamp(find_row(u.y * running_sums[rows.z - 1]), rows.x, rows.x + rows.y - 1);
+    int first = rows.w + (row - rows.x) * size;
+    float in_row = texel_sums[first + size - 1];
+    weight = (running_sums[row] - (row == 0 ? 0.0 : running_sums[row - 1])) / max(in_row, 1e-30);
+    return ivec2(find_texel(first, size, u.x * in_row), row - rows.x);
+}
+
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= maps.x) {
+        return;
+    }
+    int place = index / layout_.y * layout_.z + index % layout_.y;
+    float total = running_sums[rows.z - 1];
+    if (!(total > 0.0)) {
+        drawn[place] = dark_vpl();
+        return;
+    }
+    // Cells of one subset of the interleaved gather are n apart, so each subset covers the whole square.
+    int n = layout_.x;
+    int subset = index / layout_.y;
+    int k = index % layout_.y;
+    ivec2 cell = ivec2(k % layout_.w, k / layout_.w) * n + ivec2(subset % n, subset / n);
+    vec2 cells = vec2(layout_.w * n, layout_.y / layout_.w * n);
+    int row = find_row(min((float(cell.y) + 0.5) / cells.y, 1.0 - 1e-6) * total);
+    if (row < rows.x || row >= rows.x + rows.y) {
+        return;
+    }
+    float texels = total / (float(maps.x) * float(CHILDREN));  // over importance: texels a child stands for
+    PixelLight children[CHILDREN];
+    float measures[CHILDREN];
+    for (int i = 0; i < CHILDREN; ++i) {
+        vec2 h = vec2(radical_inverse(2u, uint(i)), radical_inverse(3u, uint(i))) + 0.5 / float(CHILDREN);
+        float weight;
+        ivec2 found = find(min((vec2(cell) + h) / cells, vec2(1.0 - 1e-6)), weight);
+        ivec2 texel = ivec2(found.x, found.y % source_rows());
+        int layer = found.y / source_rows();
+        load_pixel_light(texel, layer, children[i]);
+        float importance = texel_importance(texel, layer) * weight;
+        measures[i] = importance > 0.0 ? texel_measure(texel, children[i]) * texels / importance : 0.0;
+    }
+#ifdef FROM_IRSM
+    // What a cell holds may lie anywhere along its strip, on either side of a wall: the light stands where one child
+    // does, picked by flux, and has the flux of all.
+    float fluxes[CHILDREN];
+    float flux = 0.0;
+    for (int i = 0; i < CHILDREN; ++i) {
+        fluxes[i] = importance_density(children[i].color, children[i].metallic, children[i].arriving) * measures[i];
+        flux += fluxes[i];
+    }
+    float wanted = float(hash(uint(index))) * (1.0 / 4294967296.0) * flux;
+    int picked = 0;
+    float sum = 0.0;
+    for (int i = 0; i < CHILDREN; ++i) {
+        picked = sum <= wanted && fluxes[i] > 0.0 ? i : picked;
+        sum += fluxes[i];
+    }
+    GpuVpl vpl = make_vpl(children[picked], measures[picked] * flux / max(fluxes[picked], 1e-30));
+    float area = 0.0;         // passes/vpl_spacing.comp fills it in
+    float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
+#else
+    // A cell may lie across an edge. One child picks the surface, so that in the mean every surface has its due;
+    // the light then stands in the middle of those that lie on it.
+    PixelLight chosen = children[hash(uint(index)) % uint(CHILDREN)];
+    vec3 center = vec3(0.0);
+    vec3 color = vec3(0.0);
+    float area = 0.0;
+    float measure = 0.0;
+    float members = 0.0;
+    bool member[CHILDREN];
+    for (int i = 0; i < CHILDREN; ++i) {
+        vec3 d = children[i].position - chosen.position;
+        member[i] = dot(children[i].normal, chosen.normal) > 0.9 &&
+                    abs(dot(d, chosen.normal)) <= 0.2 * length(d) + 1e-5;
+        if (member[i]) {
+            members += 1.0;
+            center += children[i].position;
+            color += children[i].color * measures[i];
+            measure += measures[i];
+            area += surface_area(children[i], measures[i]);
+        }
+    }
+    center /= members;
+    PixelLight middle = chosen;
+    float least = 1e30;
+    for (int i = 0; i < CHILDREN; ++i) {
+        vec3 d = children[i].position - center;
+        if (member[i] && dot(d, d) < least) {
+            least = dot(d, d);
+            middle = children[i];
+        }
+    }
+    float all = float(CHILDREN) / members;
+    middle.color = color / max(measure, 1e-30);
+    GpuVpl vpl = make_vpl(middle, measure * all);
+    area *= all;
+    float near_radius = min(NEAR_RADIUS * sqrt(area), NEAR_CAP);
+#endif
+    ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
+    vpl.position.w = area;
+    vpl.tangent.w = 1.0 / max(near_radius * near_radius, 1e-30);
+    vpl.bitangent.w = uintBitsToFloat(uint(origin.x) | uint(origin.y) << 16);
+    drawn[place] = vpl;
+}
