@@ -84,9 +84,9 @@ void PointStore::upload(const VertexStore& vertices) {
         run.first = run.count == 0 ? static_cast<uint32_t>(sources.size()) : run.first;
         ++run.count;
         // A flat point has its share negated.
-        sources.push_back({place(point.surface, point.triangle, vertices),
-                           {point.second, point.third, point.flat ? -point.share : point.share,
-                            std::bit_cast<float>(i)}});
+        sources.push_back(
+            {place(point.surface, point.triangle, vertices),
+             {point.second, point.third, point.flat ? -point.share : point.share, std::bit_cast<float>(i)}});
     }
     sources_ = gl::Buffer::of("point sources", std::span<const GpuPointSource>(sources));
     points_ = gl::Buffer("points", total * sizeof(glm::uvec4), 0);
@@ -115,11 +115,10 @@ void PointStore::upload_materials() {
     for (size_t i = 0; i < materials.size(); ++i) {
         const scene::PointMaterial& material = materials[i];
         const glm::vec3 root = glm::sqrt(glm::clamp(material.base_color, 0.0F, 1.0F));
-        packed.emplace_back(set_.reflectors[i].surface,
-                            fraction(root.r, 1023.0F) | fraction(root.g, 1023.0F) << 10U |
-                                fraction(root.b, 1023.0F) << 20U,
-                            fraction(material.roughness, 65535.0F) | fraction(material.metallic, 65535.0F) << 16U,
-                            0U);
+        packed.emplace_back(
+            set_.reflectors[i].surface,
+            fraction(root.r, 1023.0F) | fraction(root.g, 1023.0F) << 10U | fraction(root.b, 1023.0F) << 20U,
+            fraction(material.roughness, 65535.0F) | fraction(material.metallic, 65535.0F) << 16U, 0U);
     }
     point_materials_ = gl::Buffer::of("point materials", std::span<const glm::uvec4>(packed));
 }

@@ -19,14 +19,14 @@ struct PointRun {
     uint32_t count = 0;
 };
 
-// The scene's points on the GPU: which triangle each lies on, uploaded once, and where it is at this pose, which
-// the point update pass writes for surfaces that changed.
+// The scene's points on the GPU: which triangle each lies on, uploaded once, and where it is at this pose,
+// which the point update pass writes for surfaces that changed.
 class PointStore {
   public:
     PointStore(const scene::Scene& scene, int animation);
 
-    // drop_hull: surfaces on the scene's hull hide nothing. Samples points where the counts or the surfaces on the hull changed, and finds out what moved since
-    // update_done() was last called.
+    // drop_hull: surfaces on the scene's hull hide nothing. Samples points where the counts or the surfaces
+    // on the hull changed, and finds out what moved since update_done() was last called.
     void set_pose(const scene::Pose& pose, const RenderSpace& space, const VertexStore& vertices,
                   const scene::PointCounts& wanted, bool drop_hull);
 

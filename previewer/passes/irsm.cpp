@@ -9,9 +9,9 @@ TextureHandle add_irsm(FrameGraph& graph, const PassContext& context, const Scen
     graph.add_pass("irsm", [&](PassBuilder& builder) {
         builder.read(scene.points);
         builder.read(set.vpls);
-        out = builder.create_texture("irsm atlas", {.format = GL_R32UI,
-                                                    .width = set.columns * set.map_size,
-                                                    .height = set.rows * set.map_size});
+        out = builder.create_texture(
+            "irsm atlas",
+            {.format = GL_R32UI, .width = set.columns * set.map_size, .height = set.rows * set.map_size});
         return [context, scene, set, out](const PassResources& resources) {
             context.programs.compute("passes/irsm_splat.comp", {{"MAP_SIZE", std::to_string(set.map_size)}})
                 .use();

@@ -23,8 +23,8 @@ enum class PullPush {
 struct PullPushSettings {
     PullPush mode = PullPush::fill;
     int levels = 2;
-    // Depths this near are averaged on the way up; farther off they are replaced on the way down. Render units (the
-    // scene's extent is 1), at the finest level; each coarser one doubles them.
+    // Depths this near are averaged on the way up; farther off they are replaced on the way down. Render
+    // units (the scene's extent is 1), at the finest level; each coarser one doubles them.
     float pull_threshold = 0.05F;
     float push_threshold = 0.05F;
 };

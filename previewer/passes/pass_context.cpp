@@ -39,11 +39,16 @@ gl::Defines light_defines(const LightPass& light) {
 
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
                 const gl::Defines& defines) {
-    context.scene.bind();
     context.uniforms.bind(UBO_VIEW, view.uniforms);
+    draw_batches(context, view.mirrored, kind, fragment, defines);
+}
+
+void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
+                  const gl::Defines& defines) {
+    context.scene.bind();
     glEnable(GL_DEPTH_TEST);
     // A light inside its own near plane must not see through what stands there.
-    if (kind == DrawKind::depth || kind == DrawKind::light_surface) {
+    if (kind == DrawKind::depth || kind == DrawKind::light_surface || kind == DrawKind::plane) {
         glEnable(GL_DEPTH_CLAMP);
     }
     for (const gpu::DrawBatch& batch : context.scene.batches()) {
@@ -55,7 +60,7 @@ void draw_scene(const PassContext& context, const View& view, DrawKind kind, con
         }
         context.programs.raster("passes/geometry.vert", fragment, all).use();
         context.scene.bind_material(batch);
-        glFrontFace(batch.mirrored != view.mirrored ? GL_CW : GL_CCW);
+        glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
         if (batch.cull_back_faces) {
             glEnable(GL_CULL_FACE);
         } else {

@@ -46,9 +46,12 @@ struct PassContext {
 
 // Draws every batch of the scene into the bound framebuffer. Programs are chosen by each batch's features;
 // depth_only batches take their fragment shader only where an alpha test needs it.
-enum class DrawKind { surface, surface_with_emission, light_surface, depth };
+enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth };
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
                 const gl::Defines& defines);
+// The same with ViewUniforms that the caller has bound.
+void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
+                  const gl::Defines& defines);
 
 // Work groups that cover a picture, and the barrier after which everything written is seen.
 void dispatch_2d(int width, int height);

@@ -9,8 +9,7 @@ TextureHandle add_shadow_map(FrameGraph& graph, const PassContext& context, cons
         map = builder.create_texture("shadow map", {.format = GL_DEPTH_COMPONENT32F,
                                                     .width = light.shadow_size,
                                                     .height = light.shadow_size,
-                                                    .layers = static_cast<int>(light.faces.size()),
-                                                    .compare = true});
+                                                    .layers = static_cast<int>(light.faces.size())});
         return [context, light, map](const PassResources& resources) {
             const float far_depth = 0.0F;
             for (size_t face = 0; face < light.faces.size(); ++face) {

@@ -144,8 +144,7 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
         defines["VISIBILITY"] = "1";
         if (source.slope_bias) defines["SLOPE_BIAS"] = "1";
     }
-    const Source only{with_lobes(defines, context, glossy),
-                      splatted ? source.set.map_size : source.set.maps,
+    const Source only{with_lobes(defines, context, glossy), splatted ? source.set.map_size : source.set.maps,
                       splatted ? source.set.map_size * source.set.maps : source.set.points_a_map,
                       [source, map](PassBuilder& builder) {
                           if (map.valid()) builder.read(map);

@@ -15,7 +15,7 @@ struct VplSource {
 
 // Imperfect reflective shadow maps of a bounce's lights: what the next bounce's are drawn from.
 struct IrsmSource {
-    VplSet set;         // whose lights they are; its uniforms and map size are those of the maps to read
+    VplSet set;           // whose lights they are; its uniforms and map size are those of the maps to read
     TextureHandle irsm;   // as add_irsm() draws them; invalid: the points themselves
     TextureHandle atlas;  // the lights' shadow maps, which hide points where there is no irsm; may be invalid
     bool slope_bias = false;  // the shadow maps' splats have one depth each
@@ -29,9 +29,9 @@ struct VplImportance {
     int row_count = 0;
 };
 
-// Virtual point lights (GpuVpl) drawn in proportion to the flux that the maps reflect; together they have all of it.
-// Without any flux all are dark. `layout` says how many and where they go; returns it with the buffer filled in.
-// glossy: glossy reflection counts and is kept.
+// Virtual point lights (GpuVpl) drawn in proportion to the flux that the maps reflect; together they have all
+// of it. Without any flux all are dark. `layout` says how many and where they go; returns it with the buffer
+// filled in. glossy: glossy reflection counts and is kept.
 struct DrawnVpls {
     VplSet set;
     VplImportance importance;

@@ -8,7 +8,8 @@
 namespace bounce {
 namespace {
 
-// Below this the disks of a small scene's objects are as large as the objects' features, whatever the maps hold.
+// Below this the disks of a small scene's objects are as large as the objects' features, whatever the maps
+// hold.
 constexpr int k_least_points = 512;
 constexpr int k_most_points = 1 << 16;
 
@@ -16,16 +17,17 @@ constexpr int k_most_points = 1 << 16;
 constexpr size_t k_most_in_all = (size_t{64} << 20U) / sizeof(glm::uvec4);
 
 // Side of a disk over that of its point's area, so that neighbours overlap and no ray slips between them: of
-// points spread at random a share of exp(-overlap^2) of a surface is left bare, and more than this makes outlines
-// grow. docs/papers/imperfect_shadow_maps.md has the measurement.
+// points spread at random a share of exp(-overlap^2) of a surface is left bare, and more than this makes
+// outlines grow. docs/papers/imperfect_shadow_maps.md has the measurement.
 constexpr double k_disk_overlap = 1.15;
 
-// The same where reflected light is collected: a texel left bare is light lost, 2 % of them at this overlap, and an
-// outline that is too wide only moves a little of it.
+// The same where reflected light is collected: a texel left bare is light lost, 2 % of them at this overlap,
+// and an outline that is too wide only moves a little of it.
 constexpr double k_reflector_overlap = 2.0;
 
-// How far a disk is moved back behind its plane, in its radii: where a surface curves, its points' disks stand
-// out of it by up to half their squared radius times the curvature, and must not hide the surface itself.
+// How far a disk is moved back behind its plane, in its radii: where a surface curves, its points' disks
+// stand out of it by up to half their squared radius times the curvature, and must not hide the surface
+// itself.
 constexpr double k_disk_set_back = 0.5;
 
 // Paths with one depth a splat: the receiver is moved towards the light by this many radii, and by this many
@@ -44,8 +46,9 @@ IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map) {
     layout.vpls = layout.subset * subsets;
     // A subset begins on an even place: two lights fill 256 bytes.
     layout.subset_places = layout.subset + layout.subset % 2;
-    // Cells of the first bounce are about square, as its maps are. Those of a further one are strips: rows follow a
-    // curve over the scene's surfaces (shaders/lib/irsm.glsl), and along a row lie only the lights that shine there.
+    // Cells of the first bounce are about square, as its maps are. Those of a further one are strips: rows
+    // follow a curve over the scene's surfaces (shaders/lib/irsm.glsl), and along a row lie only the lights
+    // that shine there.
     layout.cell_columns = bounce == 1 ? static_cast<int>(std::sqrt(layout.subset)) : 1;
     while (layout.subset % layout.cell_columns != 0) {
         --layout.cell_columns;
@@ -97,7 +100,8 @@ gpu::IsmUniforms ism_uniforms(const IsmLayout& layout, const Settings& settings,
     // A point's radius is that of its share of the whole sequence; a map has only a block of it.
     const double density = static_cast<double>(occluders) / layout.points_a_map;
     if (settings.splat == Splat::disks) {
-        out.splat = glm::vec4(glm::dvec4(density * k_disk_overlap * k_disk_overlap, k_disk_set_back, 0.0, 0.0));
+        out.splat =
+            glm::vec4(glm::dvec4(density * k_disk_overlap * k_disk_overlap, k_disk_set_back, 0.0, 0.0));
     } else {
         out.splat = glm::vec4(glm::dvec4(density, 0.0, k_flat_bias * mean_radius, k_slope_bias));
     }

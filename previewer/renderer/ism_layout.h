@@ -29,9 +29,9 @@ struct IsmLayout {
 // bounce: from 1; later ones have Settings::bounce_vpls lights.
 [[nodiscard]] IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map);
 
-// Points for one map: a quarter of the texels of a full parabolic map (Ritschel et al. 2008, 5.2), times the mean
-// number of surfaces along a line through the scene where that is above one, and at least what keeps their disks
-// small against the scene. depth_complexity: see depth_complexity().
+// Points for one map: a quarter of the texels of a full parabolic map (Ritschel et al. 2008, 5.2), times the
+// mean number of surfaces along a line through the scene where that is above one, and at least what keeps
+// their disks small against the scene. depth_complexity: see depth_complexity().
 [[nodiscard]] int automatic_points(int map_size, double depth_complexity);
 
 // Mean number of intersections of a line with surfaces of a total area that lie inside a convex body with a
@@ -41,11 +41,13 @@ struct IsmLayout {
 // Points in the whole sequence that maps take their blocks from, each its own as far as memory goes.
 [[nodiscard]] size_t points_in_all(const IsmLayout& layout);
 
-// occluders: points in the sequence. mean_radius: of the disk that one of a map's points stands for, render units.
-[[nodiscard]] gpu::IsmUniforms ism_uniforms(const IsmLayout& layout, const Settings& settings, size_t occluders,
-                                            double mean_radius);
+// occluders: points in the sequence. mean_radius: of the disk that one of a map's points stands for, render
+// units.
+[[nodiscard]] gpu::IsmUniforms ism_uniforms(const IsmLayout& layout, const Settings& settings,
+                                            size_t occluders, double mean_radius);
 
 // The same for imperfect reflective shadow maps; their points, `reflectors`, stand behind `first` others.
-[[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, size_t reflectors, size_t first, bool splatted);
+[[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, size_t reflectors, size_t first,
+                                             bool splatted);
 
 }  // namespace bounce

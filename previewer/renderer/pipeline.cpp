@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/pipeline.h"
 
+#include "passes/classic_maps.h"
 #include "passes/composite.h"
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
@@ -80,7 +81,9 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
             }
             drawn = add_vpls_from_irsms(graph, context, source, in.bounces[bounce].lights, in.plan.glossy);
         }
-        if (in.plan.occluded) {
+        if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
+            drawn.set.atlas = add_classic_maps(graph, context, drawn.set);
+        } else if (in.plan.occluded) {
             drawn.set.atlas = add_ism(graph, context,
                                       {.scene = scene,
                                        .large_triangles = static_cast<int>(in.points->large_triangles()),

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -37,6 +36,15 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
 // what they are hidden from.
 constexpr int k_irsm_size = 32;
 
+// Imperfect shadow maps are drawn from points; classic ones from triangles.
+bool splats_points(const FramePlan& plan, const Settings& settings) {
+    return plan.occluded && settings.visibility == Visibility::ism;
+}
+
+bool points_needed(const FramePlan& plan, const Settings& settings) {
+    return splats_points(plan, settings) || plan.bounces > 1;
+}
+
 passes::VplSet vpl_set(const IsmLayout& layout) {
     passes::VplSet set;
     set.maps = layout.vpls;
@@ -58,7 +66,8 @@ Renderer::~Renderer() = default;
 
 std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
                                               FramePlan& plan) {
-    const bool needs_points = plan.occluded || plan.bounces > 1;
+    const bool splats = splats_points(plan, settings);
+    const bool needs_points = points_needed(plan, settings);
     if (needs_points && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
     }
@@ -75,19 +84,17 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         first.points_a_map = settings.ism_points > 0
                                  ? settings.ism_points
                                  : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
-        irsm.points_a_map =
-            getenv("PR") ? atoi(getenv("PR"))
-                         : automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
+        irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
-        counts.occluders = plan.occluded ? points_in_all(first) : 0;
+        counts.occluders = splats ? points_in_all(first) : 0;
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
         counts.reflectors = plan.bounces > 1 ? points_in_all(irsm) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
         points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull);
         mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
                       gpu_scene_.space().scale;
-        if (plan.occluded && points_->occluders() == 0 && points_->large_triangles() == 0) {
+        if (splats && points_->occluders() == 0 && points_->large_triangles() == 0) {
             plan.occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
@@ -146,7 +153,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     };
     const gpu::UniformArena::Slot frame = frame_slot(0);
     const auto view_slot = [&](const glm::mat4& clip_from_render) {
-        return uniforms_.add(gpu::ViewUniforms{clip_from_render, {}});
+        return uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)});
     };
     const passes::View camera_view{view_slot(glm::mat4(camera.clip_from_render)), false};
 
@@ -207,7 +214,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .lights = lights,
                     .gather_frames = gather_frames,
                     .patterns = patterns,
-                    .points = plan.occluded || plan.bounces > 1 ? points_.get() : nullptr,
+                    .points = points_needed(plan, settings) ? points_.get() : nullptr,
                     .bounces = bounces,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});

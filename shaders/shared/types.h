@@ -36,7 +36,7 @@ struct FrameUniforms {
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
-    ivec4 face;             // cube face or 0, -, -, -
+    vec4 eye;               // xyz render space, where maps of planes tell distances from; -
 };
 
 // One light; each is a pass of its own, with its map and profile compiled in.

@@ -9,7 +9,8 @@ bool primitive_deforms(const Node& node, const Primitive& primitive) {
     return !primitive.targets.empty() || (node.skin != k_none && !primitive.joints.empty());
 }
 
-std::vector<glm::dvec3> deformed_positions(const Scene& scene, const Pose& pose, const PointSurface& surface) {
+std::vector<glm::dvec3> deformed_positions(const Scene& scene, const Pose& pose,
+                                           const PointSurface& surface) {
     const Node& node = scene.nodes[static_cast<size_t>(surface.node)];
     const Primitive& primitive =
         scene.meshes[static_cast<size_t>(surface.mesh)].primitives[static_cast<size_t>(surface.primitive)];
@@ -37,7 +38,8 @@ std::vector<glm::dvec3> deformed_positions(const Scene& scene, const Pose& pose,
         return positions;
     }
     // A skinned mesh's own node does not count, even where a primitive lacks joints.
-    glm::dmat4 m = node.skin != k_none ? glm::dmat4(1.0) : pose.world_from_node[static_cast<size_t>(surface.node)];
+    glm::dmat4 m =
+        node.skin != k_none ? glm::dmat4(1.0) : pose.world_from_node[static_cast<size_t>(surface.node)];
     if (node.skin == k_none && !node.instances.empty()) {
         m = m * node.instances[static_cast<size_t>(surface.instance)];
     }

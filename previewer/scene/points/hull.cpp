@@ -14,8 +14,8 @@ size_t at(int index) {
     return static_cast<size_t>(index);
 }
 
-// What may lie beyond a hull part's plane, of the scene's diagonal: feet that sink into a floor a little. Light
-// between places that deep is taken for unhidden.
+// What may lie beyond a hull part's plane, of the scene's diagonal: feet that sink into a floor a little.
+// Light between places that deep is taken for unhidden.
 constexpr double k_tolerance = 1e-3;
 
 // Directions remembered before they are forgotten all at once.
@@ -108,7 +108,8 @@ std::vector<bool> HullFinder::on_hull(const Pose& pose) {
                 const double length = glm::length(across);
                 if (length > 0.0 && std::isfinite(length)) {
                     const glm::dvec3 normal = across / length;
-                    const double offset = glm::dot(normal, glm::dvec3(*m * glm::dvec4(part.table->point, 1.0)));
+                    const double offset =
+                        glm::dot(normal, glm::dvec3(*m * glm::dvec4(part.table->point, 1.0)));
                     hull = everything_below(pose, normal, offset + tolerance) ||
                            everything_below(pose, -normal, -offset + tolerance);
                 }

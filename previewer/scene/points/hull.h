@@ -9,9 +9,9 @@
 
 namespace bounce::scene {
 
-// Finds the flat parts that lie on the scene's hull: everything visible is on one side of their plane, up to a
-// thousandth of the scene's diagonal. No straight line between two places of the scene passes through such a
-// part, so it hides nothing from anything (a closed room's walls, the ground under a scene).
+// Finds the flat parts that lie on the scene's hull: everything visible is on one side of their plane, up to
+// a thousandth of the scene's diagonal. No straight line between two places of the scene passes through such
+// a part, so it hides nothing from anything (a closed room's walls, the ground under a scene).
 class HullFinder {
   public:
     HullFinder(const Scene& scene, const SurfaceParts& parts) : scene_(scene), parts_(parts) {}

@@ -26,16 +26,15 @@ struct Level {
     int width = 0;
     int height = 0;
     std::vector<glm::vec4> texels;
-    [[nodiscard]] const glm::vec4& texel(int x, int y) const {
-        return texels[at(y) * at(width) + at(x)];
-    }
+    [[nodiscard]] const glm::vec4& texel(int x, int y) const { return texels[at(y) * at(width) + at(x)]; }
 };
 
 glm::vec4 image_texel(const Image& image, int x, int y, bool color) {
     const size_t i = 4 * (at(y) * at(image.width) + at(x));
     glm::vec4 out;
     for (int c = 0; c < 4; ++c) {
-        const float value = image.rgba16.empty() ? image.rgba8[i + at(c)] / 255.0F : image.rgba16[i + at(c)] / 65535.0F;
+        const float value =
+            image.rgba16.empty() ? image.rgba8[i + at(c)] / 255.0F : image.rgba16[i + at(c)] / 65535.0F;
         out[c] = color && c < 3 ? srgb_to_linear(value) : value;
     }
     return out;
@@ -66,12 +65,13 @@ Level shrink(int from_width, int from_height, int width, int height, Load&& load
 
 std::vector<Level> make_pyramid(const Image& image, bool color) {
     std::vector<Level> levels;
-    levels.push_back(shrink(image.width, image.height, std::min(image.width, k_base), std::min(image.height, k_base),
+    levels.push_back(shrink(image.width, image.height, std::min(image.width, k_base),
+                            std::min(image.height, k_base),
                             [&](int x, int y) { return image_texel(image, x, y, color); }));
     while (levels.back().width > 1 || levels.back().height > 1) {
         const Level& from = levels.back();
-        Level next = shrink(from.width, from.height, std::max(from.width / 2, 1), std::max(from.height / 2, 1),
-                            [&](int x, int y) { return from.texel(x, y); });
+        Level next = shrink(from.width, from.height, std::max(from.width / 2, 1),
+                            std::max(from.height / 2, 1), [&](int x, int y) { return from.texel(x, y); });
         levels.push_back(std::move(next));
     }
     return levels;
@@ -134,7 +134,8 @@ class TextureReader {
         const glm::vec2 uv = corner[0] + ab * point.second + ac * point.third;
         const std::vector<Level>& levels = pyramid(texture.image, color);
         const float uv_area = 0.5F * std::abs(ab.x * ac.y - ab.y * ac.x) * share;
-        const float texels = uv_area * static_cast<float>(levels[0].width) * static_cast<float>(levels[0].height);
+        const float texels =
+            uv_area * static_cast<float>(levels[0].width) * static_cast<float>(levels[0].height);
         const float wanted = texels > 1.0F ? 0.5F * std::log2(texels) : 0.0F;
         const auto last = static_cast<float>(levels.size() - 1);
         const auto level = static_cast<size_t>(std::lround(std::min(wanted, last)));

@@ -9,7 +9,8 @@
 
 namespace bounce::scene {
 
-// What textures and vertex colours say at a point; a material's factors are not in it, because they may be animated.
+// What textures and vertex colours say at a point; a material's factors are not in it, because they may be
+// animated.
 struct PointMaterial {
     glm::vec3 base_color{1.0F};  // linear
     float roughness = 1.0F;
@@ -20,8 +21,8 @@ struct PointMaterial {
 [[nodiscard]] std::vector<PointMaterial> point_materials(const Scene& scene, const SurfaceParts& parts,
                                                          const std::vector<PointSample>& points);
 
-// Takes the area away from points that lie where their surface's texture or material cuts a hole: they hide and
-// reflect nothing.
+// Takes the area away from points that lie where their surface's texture or material cuts a hole: they hide
+// and reflect nothing.
 void drop_cut_out(const Scene& scene, const SurfaceParts& parts, std::vector<PointSample>& points);
 
 }  // namespace bounce::scene

@@ -36,8 +36,8 @@ struct PlacedTriangle {
     size_t index;  // into the part's table
 };
 
-// Triangles to draw as they are: those whose share of the points is at least k_large_points, where the points are
-// spread over what is left.
+// Triangles to draw as they are: those whose share of the points is at least k_large_points, where the points
+// are spread over what is left.
 std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vector<bool>& use,
                                        size_t points_a_map) {
     double left = 0.0;
@@ -49,7 +49,8 @@ std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vec
     const double least = left * k_large_points / static_cast<double>(points_a_map) / 16.0;
     for (size_t p = 0; p < parts.parts.size(); ++p) {
         const SurfacePart& part = parts.parts[p];
-        for (size_t i = 0; use[p] && !part.cut_out && part.area_m2 >= least && i < part.table->triangles.size(); ++i) {
+        for (size_t i = 0;
+             use[p] && !part.cut_out && part.area_m2 >= least && i < part.table->triangles.size(); ++i) {
             if (const double area = triangle_area_m2(part, i); area >= least) {
                 candidates.push_back({area, p, i});
             }
@@ -160,13 +161,15 @@ std::vector<PointSample> sample_sequence(const std::vector<Sampled>& parts, size
 
 }  // namespace
 
-PointSet sample_points(const SurfaceParts& parts, const std::vector<bool>& on_hull, const PointCounts& counts) {
+PointSet sample_points(const SurfaceParts& parts, const std::vector<bool>& on_hull,
+                       const PointCounts& counts) {
     PointSet set;
     std::vector<bool> hides = on_hull;
     hides.flip();
     if (counts.occluders > 0) {
-        const std::vector<PlacedTriangle> large =
-            counts.large_triangles ? find_large(parts, hides, counts.points_a_map) : std::vector<PlacedTriangle>{};
+        const std::vector<PlacedTriangle> large = counts.large_triangles
+                                                      ? find_large(parts, hides, counts.points_a_map)
+                                                      : std::vector<PlacedTriangle>{};
         for (const PlacedTriangle& triangle : large) {
             const SurfacePart& part = parts.parts[triangle.part];
             set.large.push_back({part.surface, part.table->triangles[triangle.index]});
@@ -176,8 +179,8 @@ PointSet sample_points(const SurfaceParts& parts, const std::vector<bool>& on_hu
     }
     if (counts.reflectors > 0) {
         const std::vector<bool> all(parts.parts.size(), true);
-        set.reflectors = sample_sequence(without(parts, all, {}), counts.reflectors,
-                                         counts.reflectors_a_map, 2, set.reflector_area_m2);
+        set.reflectors = sample_sequence(without(parts, all, {}), counts.reflectors, counts.reflectors_a_map,
+                                         2, set.reflector_area_m2);
     }
     return set;
 }

@@ -14,8 +14,9 @@ struct PointSample {
     uint32_t triangle = 0;  // of its primitive
     float second = 0.0F;    // barycentric weights of the triangle's second and third corner
     float third = 0.0F;
-    float share = 0.0F;  // of its triangle's area, that the point stands for within its sequence; may exceed 1
-    bool flat = false;   // on a large plane: a disk there lies in the surface
+    float share =
+        0.0F;           // of its triangle's area, that the point stands for within its sequence; may exceed 1
+    bool flat = false;  // on a large plane: a disk there lies in the surface
 };
 
 struct SurfaceTriangle {
@@ -25,11 +26,12 @@ struct SurfaceTriangle {
 
 // What stands for the scene's surfaces where visibility is asked for.
 //
-// Points are spread in proportion to area (Ritschel et al. 2008, "Imperfect Shadow Maps for Efficient Computation
-// of Indirect Illumination", 3.1). Within a sequence every run of consecutive points is stratified over the whole
-// of its surfaces, the better the nearer its length is to a power of two.
+// Points are spread in proportion to area (Ritschel et al. 2008, "Imperfect Shadow Maps for Efficient
+// Computation of Indirect Illumination", 3.1). Within a sequence every run of consecutive points is
+// stratified over the whole of its surfaces, the better the nearer its length is to a power of two.
 struct PointSet {
-    std::vector<SurfaceTriangle> large;   // occluders that would have many points in every map: drawn as they are
+    std::vector<SurfaceTriangle>
+        large;  // occluders that would have many points in every map: drawn as they are
     std::vector<PointSample> occluders;   // on the other surfaces that may hide something
     std::vector<PointSample> reflectors;  // on all surfaces
     double occluder_area_m2 = 0.0;        // that the points stand for
@@ -37,8 +39,8 @@ struct PointSet {
 };
 
 struct PointCounts {
-    size_t points_a_map = 0;  // of the occluders that each map takes
-    size_t occluders = 0;     // in all
+    size_t points_a_map = 0;      // of the occluders that each map takes
+    size_t occluders = 0;         // in all
     size_t reflectors_a_map = 0;  // in each run of so many they are sorted along a curve over all surfaces
     size_t reflectors = 0;        // in all
     bool large_triangles = true;

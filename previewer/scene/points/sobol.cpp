@@ -33,8 +33,8 @@ constexpr Directions van_der_corput() {
     return v;
 }
 
-constexpr std::array<Directions, 3> k_directions = {
-    van_der_corput(), direction_numbers<1>(0, {1}), direction_numbers<2>(1, {1, 3})};
+constexpr std::array<Directions, 3> k_directions = {van_der_corput(), direction_numbers<1>(0, {1}),
+                                                    direction_numbers<2>(1, {1, 3})};
 
 constexpr uint32_t reverse_bits(uint32_t x) {
     x = (x >> 16U) | (x << 16U);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Owen-scrambled Sobol points: every block of 2^k consecutive points is spread evenly over the unit cube, so a
-// block serves as a sample of its own.
+// Owen-scrambled Sobol points: every block of 2^k consecutive points is spread evenly over the unit cube, so
+// a block serves as a sample of its own.
 #pragma once
 
 #include <cstdint>

@@ -288,17 +288,19 @@ class Cutter {
         const Primitive& primitive = primitive_of(surface);
         const Placement& placement = placements_[index];
         if (surface.deforms) {
-            add_tables(index,
-                       cut_primitive(primitive, deformed_positions(scene_, poses_.front(), surface), 1.0, false),
-                       1.0);
+            add_tables(
+                index,
+                cut_primitive(primitive, deformed_positions(scene_, poses_.front(), surface), 1.0, false),
+                1.0);
             return;
         }
         if (scales_alike(placement.world_from_model)) {
             const auto key = std::pair(surface.mesh, surface.primitive);
             auto found = cuts_.find(key);
             if (found == cuts_.end()) {
-                found = cuts_.emplace(key, cut_primitive(primitive, positions_of(surface),
-                                                         largest_scale_[key], true))
+                found = cuts_
+                            .emplace(key, cut_primitive(primitive, positions_of(surface), largest_scale_[key],
+                                                        true))
                             .first;
             }
             add_tables(index, found->second, placement.scale);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The surfaces of a scene cut into parts that points are drawn from: what may hide one place of the scene from
-// another, and large flat pieces, which at times cannot because the whole scene lies on one side of them.
+// The surfaces of a scene cut into parts that points are drawn from: what may hide one place of the scene
+// from another, and large flat pieces, which at times cannot because the whole scene lies on one side of
+// them.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +47,8 @@ struct SurfaceParts {
     [[nodiscard]] double area_m2() const;
 };
 
-// Cuts the scene. Areas are those at the first frame, deformed as there; a surface that grows or appears later
-// counts with its largest area of five moments spread over the animation (as in evaluate_pose).
+// Cuts the scene. Areas are those at the first frame, deformed as there; a surface that grows or appears
+// later counts with its largest area of five moments spread over the animation (as in evaluate_pose).
 [[nodiscard]] SurfaceParts surface_parts(const Scene& scene, int animation);
 
 }  // namespace bounce::scene
