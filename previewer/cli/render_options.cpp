@@ -117,6 +117,8 @@ void RenderOptions::add_to(CLI::App& command) {
                     "Side of a shadow map in texels; half of it for a cube's faces")
         ->check(CLI::Range(2, 16384))
         ->capture_default_str();
+    command.add_option("--antialias", antialias, "on or off: smooth outlines as Cycles' pixel filter does")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
     command.add_option("--show", show, "What the picture shows")
         ->check(one_of(k_shows))
         ->capture_default_str();
@@ -152,6 +154,7 @@ Settings RenderOptions::settings(const scene::Scene& scene) const {
     out.drop_hull = drop_hull;
     out.splat_irsms = splat_irsms;
     out.glossy_bounces = glossy_bounces;
+    out.antialias = antialias;
     out.shadow_size = shadow_size;
     require_shown_map(*this, out, scene);
     if (samples == "all") {

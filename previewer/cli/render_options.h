@@ -37,6 +37,7 @@ struct RenderOptions {
     bool drop_hull = true;
     bool splat_irsms = false;
     bool glossy_bounces = true;
+    bool antialias = true;
     int shadow_size = 2048;
     int light = 0;
 

@@ -12,6 +12,7 @@ size_t bytes_per_texel(GLenum format) {
         case GL_R8:
             return 1;
         case GL_R16F:
+        case GL_R16UI:
             return 2;
         case GL_RGBA8:
         case GL_SRGB8_ALPHA8:

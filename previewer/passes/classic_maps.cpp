@@ -43,10 +43,9 @@ TextureHandle add_classic_maps(FrameGraph& graph, const PassContext& context, co
             {.format = GL_R32UI, .width = set.columns * set.map_size, .height = set.rows * set.map_size});
         const BufferHandle views = builder.create_buffer(
             "classic views", static_cast<size_t>(set.maps) * k_classic_faces * k_view_stride);
-        const TextureHandle planes = builder.create_texture("classic planes", {.format = GL_RGBA32F,
-                                                                               .width = set.map_size,
-                                                                               .height = set.map_size,
-                                                                               .layers = k_classic_faces});
+        const TextureHandle planes = builder.create_texture(
+            "classic planes",
+            {.format = GL_RGBA32F, .width = set.map_size, .height = set.map_size, .layers = k_classic_faces});
         const TextureHandle depth = builder.create_texture(
             "classic depth",
             {.format = GL_DEPTH_COMPONENT32F, .width = set.map_size, .height = set.map_size});

@@ -27,7 +27,10 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             builder.read(inputs.gbuffer.emission);
             defines["EMISSION"] = "1";
         }
-        out = builder.write(target);
+        out = target.valid()
+                  ? builder.write(target)
+                  : builder.create_texture(
+                        "picture", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
         return [context, inputs, emission, out, defines](const PassResources& resources) {
             context.programs.compute("passes/composite.comp", defines).use();
             context.uniforms.bind(UBO_FRAME, context.frame);

@@ -14,7 +14,8 @@ struct CompositeInputs {
     bool emission = false;
 };
 
-// Scene-linear radiance times film exposure into `target`, an imported RGBA32F texture.
+// Scene-linear radiance times film exposure into `target`, an RGBA32F texture; where that is invalid, into a
+// new one.
 TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
                             TextureHandle target);
 

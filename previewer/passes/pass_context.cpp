@@ -11,7 +11,7 @@ gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind) {
             defines[name] = "1";
         }
     };
-    const bool depth = kind == DrawKind::depth;
+    const bool depth = kind == DrawKind::depth || kind == DrawKind::seen_depth;
     define_if(features.alpha_test, "ALPHA_TEST");
     define_if(depth, "DEPTH_ONLY");
     if (depth && !features.alpha_test) {

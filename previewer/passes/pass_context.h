@@ -46,7 +46,7 @@ struct PassContext {
 
 // Draws every batch of the scene into the bound framebuffer. Programs are chosen by each batch's features;
 // depth_only batches take their fragment shader only where an alpha test needs it.
-enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth };
+enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth, seen_depth };
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
                 const gl::Defines& defines);
 // The same with ViewUniforms that the caller has bound.

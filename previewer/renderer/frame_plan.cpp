@@ -125,6 +125,11 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     if (plan.indirect && !plan.vpls && !plan.interpolate) {
         plan.left_out.push_back({"rsm interpolate", "every pixel is evaluated in full, as asked for"});
     }
+    plan.antialias = settings.antialias && !pose.draws.empty();
+    if (!plan.antialias) {
+        plan.left_out.push_back(
+            {"antialias", settings.antialias ? "nothing is drawn" : "pictures without it were asked for"});
+    }
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && settings.show == Show::shaded;
     if (plan.world_light) {
         plan.approximations.emplace_back("the world's light is not occluded");

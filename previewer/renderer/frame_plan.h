@@ -25,6 +25,7 @@ struct FramePlan {
     bool glossy = false;      // with the glossy lobes of lights and receivers
     bool near_field = false;  // what is near the lights is gathered from the RSMs
     bool interpolate = false;
+    bool antialias = false;
     bool emission = false;
     bool world_light = false;
     std::vector<int> lights;                  // into Pose::light_instances, those that send light

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/pipeline.h"
 
+#include "passes/antialias.h"
 #include "passes/classic_maps.h"
 #include "passes/composite.h"
 #include "passes/direct_light.h"
@@ -161,14 +162,18 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         irradiance = add_rsm_gather(graph, context, gather);
     }
 
-    add_composite(graph, context,
-                  {.gbuffer = gbuffer,
-                   .direct = direct,
-                   .irradiance = irradiance,
-                   .bounced = bounced,
-                   .world_light = in.plan.world_light,
-                   .emission = in.plan.emission && in.settings.show == Show::shaded},
-                  in.target);
+    const TextureHandle picture =
+        add_composite(graph, context,
+                      {.gbuffer = gbuffer,
+                       .direct = direct,
+                       .irradiance = irradiance,
+                       .bounced = bounced,
+                       .world_light = in.plan.world_light,
+                       .emission = in.plan.emission && in.settings.show == Show::shaded},
+                      in.plan.antialias ? TextureHandle{} : in.target);
+    if (in.plan.antialias) {
+        add_antialias(graph, context, gbuffer, in.camera, picture, in.target);
+    }
 }
 
 }  // namespace bounce

@@ -85,6 +85,7 @@ struct Settings {
     bool near_field = true;      // what lies near the lights is gathered from the RSMs
     bool glossy_bounces = true;  // glossy lobes of lights and receivers count
 
+    bool antialias = true;   // outlines are smoothed as by Cycles' pixel filter
     int shadow_size = 2048;  // a cube's faces have half of it
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait

@@ -52,6 +52,7 @@
 #define TEX_LOWRES 12
 #define TEX_GEOMETRIC_NORMAL 13
 #define TEX_ISM 14
+#define TEX_DEPTH_SAMPLES 8
 
 // Image units.
 #define IMG_OUT 0
@@ -59,6 +60,7 @@
 #define IMG_IN 2
 #define IMG_ISM 3
 #define IMG_RSM 4
+#define IMG_SOURCES 1
 
 // Vertex attributes.
 #define ATTRIB_POSITION 0
