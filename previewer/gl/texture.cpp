@@ -31,22 +31,23 @@ size_t bytes_per_texel(GLenum format) {
 
 Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc) {
     GLuint id = 0;
-    const bool array = desc.layers > 0;
-    glCreateTextures(array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &id);
-    object_ = Object<delete_texture>(id);
-    if (array) {
-        glTextureStorage3D(id, desc.levels, desc.format, desc.width, desc.height, desc.layers);
+    if (desc.samples > 0) {
+        glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id);
+        object_ = Object<delete_texture>(id);
+        glTextureStorage2DMultisample(id, desc.samples, desc.format, desc.width, desc.height, GL_TRUE);
     } else {
-        glTextureStorage2D(id, desc.levels, desc.format, desc.width, desc.height);
-    }
-    const GLint filter = desc.compare ? GL_LINEAR : GL_NEAREST;
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filter);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filter);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    if (desc.compare) {
-        glTextureParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        glTextureParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+        const bool array = desc.layers > 0;
+        glCreateTextures(array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &id);
+        object_ = Object<delete_texture>(id);
+        if (array) {
+            glTextureStorage3D(id, desc.levels, desc.format, desc.width, desc.height, desc.layers);
+        } else {
+            glTextureStorage2D(id, desc.levels, desc.format, desc.width, desc.height);
+        }
+        glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     set_label(GL_TEXTURE, id, name);
 
@@ -55,8 +56,8 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
                   static_cast<size_t>(std::max(desc.height >> level, 1));
     }
-    allocation_ =
-        Allocation(texels * static_cast<size_t>(std::max(desc.layers, 1)) * bytes_per_texel(desc.format));
+    allocation_ = Allocation(texels * static_cast<size_t>(std::max(std::max(desc.layers, desc.samples), 1)) *
+                             bytes_per_texel(desc.format));
 }
 
 }  // namespace bounce::gl

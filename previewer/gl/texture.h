@@ -19,15 +19,13 @@ struct TextureDesc {
     int height = 1;
     int layers = 0;  // 0: a 2D texture; more: an array
     int levels = 1;
-    // Depth formats looked up through a comparing sampler (sampler2DShadow).
-    bool compare = false;
+    int samples = 0;  // more: a 2D texture of so many samples a texel, without layers or levels
     friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
 };
 
 [[nodiscard]] size_t bytes_per_texel(GLenum format);
 
-// Immutable storage. Sampling defaults to nearest and clamp to edge; comparing textures are linear, with
-// reversed depth (lit where the reference is nearer, that is, greater or equal).
+// Immutable storage. Sampling is nearest and clamps to the edge.
 class Texture {
   public:
     Texture() = default;

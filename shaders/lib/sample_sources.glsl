@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where each of a pixel's two by two depth samples takes its colour from: one of the 3 x 3 pixels around, row by row,
+// Where each of a pixel's four depth samples (AA_SAMPLES) takes its colour from: one of the 3 x 3 pixels around, row by row,
 // 4 bits a sample.
 #ifndef LIB_SAMPLE_SOURCES
 #define LIB_SAMPLE_SOURCES

@@ -17,6 +17,15 @@ layout(binding = TEX_GEOMETRIC_NORMAL) uniform sampler2D geometric_normal_textur
 vec3 geometric_normal(ivec2 pixel) {
     return octahedral_decode(texelFetch(geometric_normal_texture, pixel, 0).xy * 2.0 - 1.0);
 }
+
+// The step on a surface's plane from a pixel to another, which shows a point at the same depth.
+vec3 step_on_plane(vec3 position, vec3 normal, vec3 v, ivec2 other, float depth) {
+    vec3 d = pixel_position(other, depth) - position;
+    // A plane seen from its edge goes on for ever; its filter does not.
+    float slant = dot(normal, v);
+    slant = slant < 0.0 ? min(slant, -0.05) : max(slant, 0.05);
+    return d - v * (dot(normal, d) / slant);
+}
 #endif
 
 // Radiance towards v for irradiance 1 W/m^2 on a plane across l.
@@ -71,7 +80,8 @@ void main() {
     sum = imageLoad(direct_image, pixel).rgb;
 #endif
     Surface s;
-    if (read_surface(pixel, s)) {
+    float depth = read_surface_unbranched(pixel, s);
+    if (depth > 0.0) {
         vec3 v = direction_to_viewer(s.position);
 #if MAP_KIND == MAP_ORTHOGRAPHIC
         vec3 l = -light.axis.xyz;
@@ -90,7 +100,10 @@ void main() {
 #endif
         if (max(max(radiance.r, radiance.g), radiance.b) > 0.0) {
 #ifdef SHADOW
-            radiance *= light_visibility(s.position, geometric_normal(pixel));
+            vec3 normal = geometric_normal(pixel);
+            radiance *= light_visibility(s.position, normal,
+                                         step_on_plane(s.position, normal, v, pixel + ivec2(1, 0), depth),
+                                         step_on_plane(s.position, normal, v, pixel + ivec2(0, 1), depth));
 #endif
             sum += radiance;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds for each of a pixel's two by two depth samples the pixel around whose surface it lies on. In screen space the
+// Finds for each of a pixel's depth samples the pixel around whose surface it lies on. In screen space the
 // depth of a plane is linear, so each pixel foretells the depth of any sample on its plane; the sample belongs to the
 // pixel that comes nearest, in widths of a pixel off the plane.
 #define READ_GBUFFER
@@ -8,13 +8,16 @@
 #include "lib/sample_sources.glsl"
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
-layout(binding = TEX_DEPTH_SAMPLES) uniform sampler2D depth_samples;
+layout(location = 0) uniform vec2 places[AA_SAMPLES];  // from the pixel's middle
+layout(binding = TEX_DEPTH_SAMPLES) uniform sampler2DMS depth_samples;
 layout(binding = TEX_GEOMETRIC_NORMAL) uniform sampler2D geometric_normal_texture;
 layout(binding = IMG_OUT, r16ui) writeonly uniform uimage2D sources_image;
 
 // A sample this near to the pixel's own plane, in widths of a pixel, is its own without a look around: rounding, and a
 // smooth mesh's next triangle.
 const float OWN_TOLERANCE = 0.05;
+// Another pixel must be nearer by this factor: where surfaces curve into a crease, planes of several come near by chance.
+const float NEARER_BY = 0.5;
 // A sample this far from every pixel's plane is part of something that no pixel's middle shows.
 const float LEAST_DISTANCE_OF_NONE = 1e20;
 
@@ -49,12 +52,14 @@ void main() {
         return;
     }
     Plane own = plane_of(pixel);
-    float depths[4];
-    float nearest[4];
+    float depths[AA_SAMPLES];
+    float nearest[AA_SAMPLES];
+    float off_own[AA_SAMPLES];
     float worst = 0.0;
-    for (int s = 0; s < 4; ++s) {
-        depths[s] = texelFetch(depth_samples, 2 * pixel + ivec2(s & 1, s >> 1), 0).r;
-        nearest[s] = distance_off(own, depths[s], vec2(s & 1, s >> 1) * 0.5 - 0.25);
+    for (int s = 0; s < AA_SAMPLES; ++s) {
+        depths[s] = texelFetch(depth_samples, pixel, s).r;
+        nearest[s] = distance_off(own, depths[s], places[s]);
+        off_own[s] = nearest[s];
         worst = max(worst, nearest[s]);
     }
     uint sources = ALL_SELF;
@@ -64,10 +69,9 @@ void main() {
             ivec2 offset = source_offset(k);
             ivec2 other = clamp(pixel + offset, ivec2(0), frame.size.xy - 1);
             Plane plane = plane_of(other);
-            for (int s = 0; s < 4; ++s) {
-                vec2 at = vec2(s & 1, s >> 1) * 0.5 - 0.25 - vec2(other - pixel);
-                float distance = distance_off(plane, depths[s], at);
-                if (distance < nearest[s] && nearest[s] > OWN_TOLERANCE) {
+            for (int s = 0; s < AA_SAMPLES; ++s) {
+                float distance = distance_off(plane, depths[s], places[s] - vec2(other - pixel));
+                if (distance < nearest[s] && off_own[s] > OWN_TOLERANCE && distance < NEARER_BY * off_own[s]) {
                     nearest[s] = distance;
                     found[s] = k;
                 }

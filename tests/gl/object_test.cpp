@@ -100,8 +100,9 @@ TEST_F(GlObjects, AnEmptyBufferIsStillABuffer) {
 
 TEST_F(GlObjects, TextureStorageIsWhatWasDescribed) {
     const Texture flat("flat", {.format = GL_RGBA16F, .width = 7, .height = 5});
-    const Texture array(
-        "array", {.format = GL_DEPTH_COMPONENT32F, .width = 8, .height = 8, .layers = 6, .compare = true});
+    const Texture array("array", {.format = GL_DEPTH_COMPONENT32F, .width = 8, .height = 8, .layers = 6});
+    const Texture samples("samples",
+                          {.format = GL_DEPTH_COMPONENT32F, .width = 8, .height = 4, .samples = 4});
     GLint value = 0;
     glGetTextureLevelParameteriv(flat.id(), 0, GL_TEXTURE_WIDTH, &value);
     EXPECT_EQ(value, 7);
@@ -111,8 +112,8 @@ TEST_F(GlObjects, TextureStorageIsWhatWasDescribed) {
     EXPECT_EQ(value, GL_NEAREST);
     glGetTextureLevelParameteriv(array.id(), 0, GL_TEXTURE_DEPTH, &value);
     EXPECT_EQ(value, 6);
-    glGetTextureParameteriv(array.id(), GL_TEXTURE_COMPARE_FUNC, &value);
-    EXPECT_EQ(value, GL_GEQUAL);
+    glGetTextureLevelParameteriv(samples.id(), 0, GL_TEXTURE_SAMPLES, &value);
+    EXPECT_EQ(value, 4);
 }
 
 TEST_F(GlObjects, MemoryIsCountedWithLayersAndLevels) {
@@ -123,6 +124,8 @@ TEST_F(GlObjects, MemoryIsCountedWithLayersAndLevels) {
     EXPECT_EQ(allocated_bytes() - before, 768U + 4U * (8 + 2 + 1));
     const Buffer buffer("buffer", 100, 0);
     EXPECT_EQ(allocated_bytes() - before, 768U + 44U + 100U);
+    const Texture samples("samples", {.format = GL_R32F, .width = 4, .height = 2, .samples = 4});
+    EXPECT_EQ(allocated_bytes() - before, 768U + 44U + 100U + 4U * 8 * 4);
 }
 
 TEST_F(GlObjects, AFramebufferThatCannotBeDrawnToIsRefusedByName) {
