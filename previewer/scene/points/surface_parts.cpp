@@ -129,8 +129,8 @@ double area_scale(const glm::dmat4& m) {
                      3.0);
 }
 
-// Up to a hundredth. Axes of one length that are not square to each other (a turned child of an unevenly scaled
-// parent) do not scale all directions alike.
+// Up to a hundredth. Axes of one length that are not square to each other (a turned child of an unevenly
+// scaled parent) do not scale all directions alike.
 bool scales_alike(const glm::dmat4& m) {
     const glm::dvec3 x(m[0]);
     const glm::dvec3 y(m[1]);
