@@ -92,9 +92,47 @@ TEST(Hull, FeetMaySinkInALittle) {
 }
 
 TEST(Hull, OfABoxItselfIsAllOfIt) {
+    // Turned, then scaled unevenly: normals go by the cofactor matrix.
+    for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(1.0, 3.0, 0.4), glm::dvec3(-1.0, 1.0, 2.0)}) {
+        Scene scene;
+        const int object =
+            place_mesh(scene, add_mesh(scene, box({1.0F, 2.0F, 0.5F})), scaled(scale) * turned(1.1));
+        EXPECT_TRUE(find(scene).node(object));
+    }
+}
+
+TEST(Hull, VerticesAnswerWhereBoxesDoNot) {
+    // Octahedra that stand on a face: their boxes reach through the ground, they do not. Each mesh has its
+    // own reach.
     Scene scene;
-    const int object = place_mesh(scene, add_mesh(scene, box({1.0F, 2.0F, 0.5F})), turned(1.1));
-    EXPECT_TRUE(find(scene).node(object));
+    const int ground = add_wall(scene, 2, 0.0);
+    const glm::dvec3 diagonal = glm::normalize(glm::dvec3(1.0));
+    const glm::dmat4 upright =
+        glm::rotate(glm::dmat4(1.0), std::acos(diagonal.z), glm::cross(diagonal, glm::dvec3(0.0, 0.0, 1.0)));
+    int small = 0;
+    for (const float radius : {1.0F, 0.3F}) {
+        Primitive p;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const float side : {-radius, radius}) {
+                glm::vec3 position(0.0F);
+                position[axis] = side;
+                p.positions.push_back(position);
+            }
+        }
+        for (const uint32_t x : {0U, 1U}) {
+            for (const uint32_t y : {2U, 3U}) {
+                for (const uint32_t z : {4U, 5U}) {
+                    p.indices.insert(p.indices.end(), {x, y, z});
+                }
+            }
+        }
+        // From its middle to a face an octahedron has its radius over the root of 3.
+        const double height = 1.01 * static_cast<double>(radius) / std::sqrt(3.0);
+        small = place_mesh(scene, add_mesh(scene, p), moved({0.0, 0.0, height}) * upright);
+    }
+    EXPECT_TRUE(find(scene).node(ground));
+    scene.nodes[static_cast<size_t>(small)].matrix = moved({0.0, 0.0, 0.1}) * upright;
+    EXPECT_FALSE(find(scene).node(ground));
 }
 
 TEST(Hull, MovingObjectsChangeIt) {

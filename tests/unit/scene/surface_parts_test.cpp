@@ -119,17 +119,22 @@ TEST(SurfaceParts, UnderAnyTransform) {
 
 TEST(SurfaceParts, TrianglesWithoutAreaAreLeftOut) {
     Scene scene;
-    Primitive p = square(1.0F);
-    p.positions.push_back({0.5F, 0.5F, 0.0F});  // where another vertex lies
-    p.indices.insert(p.indices.end(), {0, 0, 1, 2, 4, 2, 0, 2, 4});
+    Primitive p = triangle_soup(40, 6);
+    const double area = area_under(p, glm::dmat4(1.0));
+    p.positions.push_back(p.positions[0]);
+    p.indices.insert(p.indices.end(),
+                     {0, 0, 1, 2, 0, static_cast<uint32_t>(p.positions.size()) - 1, 3, 3, 3});
     place_mesh(scene, add_mesh(scene, p));
     const SurfaceParts parts = surface_parts(scene, k_all_animations);
-    EXPECT_NEAR(parts.area_m2(), 1.0, 1e-9);
+    EXPECT_NEAR(parts.area_m2() / area, 1.0, 1e-6);
+    size_t triangles = 0;
     for (const SurfacePart& part : parts.parts) {
         for (const uint32_t triangle : part.table->triangles) {
-            EXPECT_LT(triangle, 2U);
+            EXPECT_LT(triangle, 40U);
         }
+        triangles += part.table->triangles.size();
     }
+    EXPECT_EQ(triangles, 40U);
 }
 
 TEST(SurfaceParts, ScenesWithoutAreaHaveNoParts) {
