@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -76,8 +75,7 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
                                  ? settings.ism_points
                                  : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
         irsm.points_a_map =
-            getenv("PR") ? atoi(getenv("PR"))
-                         : automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
+            automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
         counts.occluders = plan.occluded ? points_in_all(first) : 0;
