@@ -66,7 +66,8 @@ double depth_complexity(double area_m2, double hull_surface_m2) {
 int automatic_points(int map_size, double depth_complexity) {
     const double texels = std::numbers::pi / 4.0 * map_size * map_size;
     const double points = 0.25 * texels * std::max(1.0, depth_complexity);
-    return std::clamp(static_cast<int>(std::ceil(points)), k_least_points, k_most_points);
+    // Clamped before it becomes an int: leaves by the million in a small box are more than one holds.
+    return static_cast<int>(std::ceil(std::clamp<double>(points, k_least_points, k_most_points)));
 }
 
 size_t points_in_all(const IsmLayout& layout) {

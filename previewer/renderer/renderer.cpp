@@ -79,7 +79,10 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         const scene::Bounds& bounds = gpu_scene_.bounds();
         const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
         const double hull = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-        const bool drop_hull = settings.drop_hull;
+        // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it spreads
+        // what stands before them.
+        const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
+        const bool drop_hull = settings.drop_hull && !fills;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
         first.points_a_map = settings.ism_points > 0
                                  ? settings.ism_points

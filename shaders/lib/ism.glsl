@@ -22,6 +22,12 @@ const float LEAST_PLANE_DISTANCE = 1e-4;
 // texel's corner. Each distance is given this much, so that a surface does not hide itself by rounding alone.
 const float ISM_ROUNDING = 1.0 / 2048.0 + 0.5 / 64.0;
 
+// Slope of a plane's 1/distance at `at` (-1 to 1) of a map, for pack_ism(): the derivative of normal . direction over
+// its value there, `along`. A difference over a texel would add the map's own curvature, which counts in small maps.
+vec2 plane_slope(vec3 normal, float along, vec2 at, float texel_size) {
+    return ((normal.xy - at * normal.z) / along - at) * (2.0 * texel_size / (1.0 + dot(at, at)));
+}
+
 uint pack_ism(float distance, vec2 slope) {
     distance *= 1.0 + ISM_ROUNDING;
     ivec2 steps = ivec2(clamp(round(slope * 64.0), -127.0, 127.0));

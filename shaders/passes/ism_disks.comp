@@ -39,8 +39,7 @@ void draw_disk(Splat s, ivec2 origin) {
         float t = plane / along;
         vec3 off = ray * t - s.center;
         if (t > 0.0 && dot(off, off) <= s.radius2) {
-            vec2 slope = vec2(dot(s.normal, paraboloid_direction(at + vec2(texel_size, 0.0))),
-                              dot(s.normal, paraboloid_direction(at + vec2(0.0, texel_size)))) / along - 1.0;
+            vec2 slope = plane_slope(s.normal, along, at, texel_size);
             // Along the ray a step back behind the plane is longer the more it slants; but a disk seen from its
             // edge says little about where its surface is.
             draw_nearest(origin, texel, pack_ism(t + set_back / max(abs(along), 0.1), slope));

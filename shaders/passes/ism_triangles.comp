@@ -38,11 +38,10 @@ Wedge make_wedge(GpuVpl vpl, int triangle) {
     return w;
 }
 
-void draw(Wedge w, vec3 ray, vec3 right, vec3 up, inout uint nearest) {
+void draw(Wedge w, vec3 ray, vec2 at, float texel_size, inout uint nearest) {
     float along = dot(w.normal, ray);
     float inside = min(min(dot(w.edges[0], ray), dot(w.edges[1], ray)), dot(w.edges[2], ray));
-    vec2 slope = vec2(dot(w.normal, right), dot(w.normal, up)) / along - 1.0;
-    uint bits = pack_ism(w.plane / along, slope);
+    uint bits = pack_ism(w.plane / along, plane_slope(w.normal, along, at, texel_size));
     nearest = w.plane > 0.0 && inside >= 0.0 && along > 1e-6 ? min(nearest, bits) : nearest;
 }
 
@@ -57,15 +56,13 @@ void main() {
     float texel_size = 2.0 / float(ism.atlas.x);
     vec2 at = (vec2(texel) + 0.5) * texel_size - 1.0;
     vec3 ray = paraboloid_direction(at);
-    vec3 right = paraboloid_direction(at + vec2(texel_size, 0.0));
-    vec3 up = paraboloid_direction(at + vec2(0.0, texel_size));
     ivec2 place = ism_origin(map) + texel;
     uint nearest = ISM_EMPTY;
 #ifdef NEXT_TRIANGLES
     nearest = imageLoad(atlas_image, place).r;
 #endif
     // Written out, so that every index is a constant.
-#define T(i) if (i < TRIANGLE_COUNT) draw(wedges[min(i, TRIANGLE_COUNT - 1)], ray, right, up, nearest);
+#define T(i) if (i < TRIANGLE_COUNT) draw(wedges[min(i, TRIANGLE_COUNT - 1)], ray, at, texel_size, nearest);
     T(0) T(1) T(2) T(3) T(4) T(5) T(6) T(7) T(8) T(9) T(10) T(11) T(12) T(13) T(14) T(15)
     imageStore(atlas_image, place, uvec4(nearest));
 }

@@ -8,7 +8,7 @@
 // mean colour of CHILDREN texels drawn there (the first points of the Halton sequence), and the place, normal and
 // material of that one of them that lies nearest to their middle. The mean makes colours sum up to those of the
 // maps; the middle is a midpoint rule, far more exact than a random place. Runs once for each light source; a cell
-// belongs to the source that its middle row falls into.
+// belongs to one, and a source has as many as its part of the flux, to one cell.
 #ifdef FROM_IRSM
 #include "lib/irsm.glsl"
 #else
@@ -77,16 +77,34 @@ int find_texel(int first, int size, float value) {
     return low;
 }
 
-// The texel that a point of the unit square stands for, as its row of all and its column. The row is kept within
-// this light's.
+// The texel at a part u of the row that a running sum falls into, as its column and its row of this source's.
 // weight: of its row, over the importance of the row's texels.
-ivec2 find(vec2 u, out float weight) {
+ivec2 find(float u, float sum, out float weight) {
     int size = source_size();
-    int row = clamp(find_row(u.y * running_sums[rows.z - 1]), rows.x, rows.x + rows.y - 1);
+    int row = clamp(find_row(sum), rows.x, rows.x + rows.y - 1);
     int first = rows.w + (row - rows.x) * size;
     float in_row = texel_sums[first + size - 1];
+    weight = 1.0;
+#ifdef FROM_IRSM
     weight = (running_sums[row] - (row == 0 ? 0.0 : running_sums[row - 1])) / max(in_row, 1e-30);
-    return ivec2(find_texel(first, size, u.x * in_row), row - rows.x);
+#endif
+    return ivec2(find_texel(first, size, u * in_row), row - rows.x);
+}
+
+// Columns of a row of cells in an order that leaves no gaps: steps of about the golden section that visit each once.
+int shuffled(int column, int columns) {
+    int stride = max(int(0.618034 * float(columns) + 0.5), 1);
+    for (bool coprime = false; !coprime; stride += coprime ? 0 : 1) {
+        int a = columns;
+        int b = stride;
+        while (b > 0) {
+            int rest = a % b;
+            a = b;
+            b = rest;
+        }
+        coprime = a == 1;
+    }
+    return column * stride % columns;
 }
 
 void main() {
@@ -106,17 +124,22 @@ void main() {
     int k = index % layout_.y;
     ivec2 cell = ivec2(k % layout_.w, k / layout_.w) * n + ivec2(subset % n, subset / n);
     vec2 cells = vec2(layout_.w * n, layout_.y / layout_.w * n);
-    int row = find_row(min((float(cell.y) + 0.5) / cells.y, 1.0 - 1e-6) * total);
+    // Where sources meet within a row of cells each takes its part of the columns, and all of its cells' points lie in
+    // its own map.
+    float decider = (float(shuffled(cell.x, int(cells.x))) + 0.5) / cells.x;
+    int row = find_row(min((float(cell.y) + decider) / cells.y, 1.0 - 1e-6) * total);
     if (row < rows.x || row >= rows.x + rows.y) {
         return;
     }
+    float low = max(float(cell.y) / cells.y * total, rows.x == 0 ? 0.0 : running_sums[rows.x - 1]);
+    float high = min((float(cell.y) + 1.0) / cells.y * total, running_sums[rows.x + rows.y - 1]);
     float texels = total / (float(maps.x) * float(CHILDREN));  // over importance: texels a child stands for
     PixelLight children[CHILDREN];
     float measures[CHILDREN];
     for (int i = 0; i < CHILDREN; ++i) {
         vec2 h = vec2(radical_inverse(2u, uint(i)), radical_inverse(3u, uint(i))) + 0.5 / float(CHILDREN);
         float weight;
-        ivec2 found = find(min((vec2(cell) + h) / cells, vec2(1.0 - 1e-6)), weight);
+        ivec2 found = find(min((float(cell.x) + h.x) / cells.x, 1.0 - 1e-6), mix(low, high, min(h.y, 1.0 - 1e-6)), weight);
         ivec2 texel = ivec2(found.x, found.y % source_rows());
         int layer = found.y / source_rows();
         load_pixel_light(texel, layer, children[i]);

@@ -129,12 +129,16 @@ double area_scale(const glm::dmat4& m) {
                      3.0);
 }
 
+// Up to a hundredth. Axes of one length that are not square to each other (a turned child of an unevenly
+// scaled parent) do not scale all directions alike.
 bool scales_alike(const glm::dmat4& m) {
-    const double x = glm::length(glm::dvec3(m[0]));
-    const double y = glm::length(glm::dvec3(m[1]));
-    const double z = glm::length(glm::dvec3(m[2]));
-    const auto [low, high] = std::minmax({x, y, z});
-    return low > 0.0 && high < 1.01 * low;
+    const glm::dvec3 x(m[0]);
+    const glm::dvec3 y(m[1]);
+    const glm::dvec3 z(m[2]);
+    const auto [low, high] = std::minmax({glm::length(x), glm::length(y), glm::length(z)});
+    const double skew =
+        std::max({std::abs(glm::dot(x, y)), std::abs(glm::dot(y, z)), std::abs(glm::dot(z, x))});
+    return low > 0.0 && high < 1.01 * low && skew < 0.01 * low * low;
 }
 
 // Where a rigid surface stands at the moment its areas are taken from.

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Points on surfaces: as many as their areas say, evenly, and together all of the area.
+#include "scene/points/point_set.h"
+
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "made_scenes.h"
+
+namespace bounce::scene::test {
+namespace {
+
+const Primitive& primitive_of(const Scene& scene, const SurfaceParts& parts, uint32_t surface) {
+    const PointSurface& s = parts.surfaces[surface];
+    return scene.meshes[static_cast<size_t>(s.mesh)].primitives[static_cast<size_t>(s.primitive)];
+}
+
+std::array<glm::dvec3, 3> corners(const Scene& scene, const SurfaceParts& parts, uint32_t surface,
+                                  uint32_t triangle) {
+    const Primitive& p = primitive_of(scene, parts, surface);
+    const Pose pose = evaluate_pose(scene, 0.0);
+    const PointSurface& s = parts.surfaces[surface];
+    const Node& node = scene.nodes[static_cast<size_t>(s.node)];
+    glm::dmat4 m = pose.world_from_node[static_cast<size_t>(s.node)];
+    m = node.instances.empty() ? m : m * node.instances[static_cast<size_t>(s.instance)];
+    std::array<glm::dvec3, 3> out;
+    for (size_t k = 0; k < 3; ++k) {
+        out[k] =
+            glm::dvec3(m * glm::dvec4(glm::dvec3(p.positions[p.indices[3 * size_t{triangle} + k]]), 1.0));
+    }
+    return out;
+}
+
+double area_of(const std::array<glm::dvec3, 3>& c) {
+    return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+}
+
+PointCounts occluders(size_t count, size_t a_map, bool large) {
+    PointCounts counts;
+    counts.points_a_map = a_map;
+    counts.occluders = count;
+    counts.large_triangles = large;
+    return counts;
+}
+
+std::vector<bool> none_on_hull(const SurfaceParts& parts) {
+    return std::vector<bool>(parts.parts.size(), false);
+}
+
+// Shapes of many sizes: soup, a box in two places and two scales, a floor.
+Scene mixed_scene() {
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, triangle_soup(60, 9)));
+    const int crate = add_mesh(scene, box({0.5F, 0.3F, 0.2F}));
+    place_mesh(scene, crate, turned(0.5));
+    place_mesh(scene, crate, moved({2.0, 0.0, 0.0}) * scaled({1.0, 3.0, 0.5}));
+    const int floor = place_mesh(scene, add_mesh(scene, square(3.0F)), moved({0.0, 0.0, -1.5}));
+    scene.nodes[static_cast<size_t>(floor)].instances = {glm::dmat4(1.0), moved({3.0, 0.0, 0.0})};
+    return scene;
+}
+
+TEST(PointSet, AsManyAsAreaSays) {
+    const Scene scene = mixed_scene();
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    constexpr size_t count = 1 << 14;
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(count, 1024, false));
+    ASSERT_EQ(set.occluders.size(), count);
+    EXPECT_TRUE(set.large.empty());
+    EXPECT_TRUE(set.reflectors.empty());
+    std::map<std::pair<uint32_t, uint32_t>, size_t> found;
+    for (const PointSample& point : set.occluders) {
+        ++found[{point.surface, point.triangle}];
+    }
+    double total = 0.0;
+    for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
+        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
+        for (uint32_t t = 0; t < triangles; ++t) {
+            total += area_of(corners(scene, parts, s, t));
+        }
+    }
+    EXPECT_NEAR(set.occluder_area_m2 / total, 1.0, 1e-6);
+    for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
+        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
+        for (uint32_t t = 0; t < triangles; ++t) {
+            const double expected = static_cast<double>(count) * area_of(corners(scene, parts, s, t)) / total;
+            // A run of strata of one point each: off by one at both of its ends.
+            EXPECT_NEAR(static_cast<double>(found[{s, t}]), expected, 2.0) << s << ' ' << t;
+        }
+    }
+}
+
+TEST(PointSet, SharesAddUpToTheArea) {
+    const Scene scene = mixed_scene();
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    for (const bool large : {false, true}) {
+        for (const size_t count : {size_t{1}, size_t{7}, size_t{1000}, size_t{4096}}) {
+            const PointSet set = sample_points(parts, none_on_hull(parts), occluders(count, 256, large));
+            double sum = 0.0;
+            for (const PointSample& point : set.occluders) {
+                sum += static_cast<double>(point.share) *
+                       area_of(corners(scene, parts, point.surface, point.triangle));
+            }
+            EXPECT_NEAR(sum / set.occluder_area_m2, 1.0, 1e-5) << count;
+            double whole = 0.0;
+            for (const SurfaceTriangle& triangle : set.large) {
+                whole += area_of(corners(scene, parts, triangle.surface, triangle.triangle));
+            }
+            EXPECT_NEAR((whole + set.occluder_area_m2) / parts.area_m2(), 1.0, 1e-6)
+                << "points and large triangles together are all there is";
+            EXPECT_EQ(set.large.empty(), !large);
+        }
+    }
+}
+
+TEST(PointSet, EvenWithinATriangle) {
+    Scene scene;
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    p.indices = {0, 1, 2};
+    place_mesh(scene, add_mesh(scene, p));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    constexpr size_t count = 4096;
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(count, 64, false));
+    // Cut into 64 triangles of the same area, by an 8 x 8 grid of barycentric coordinates.
+    std::map<std::array<int, 3>, int> cells;
+    for (const PointSample& point : set.occluders) {
+        EXPECT_GE(point.second, 0.0F);
+        EXPECT_GE(point.third, 0.0F);
+        EXPECT_LE(point.second + point.third, 1.0F + 1e-6F);
+        const double a = 8.0 * static_cast<double>(point.second);
+        const double b = 8.0 * static_cast<double>(point.third);
+        ++cells[{static_cast<int>(a), static_cast<int>(b),
+                 a - std::floor(a) + b - std::floor(b) < 1.0 ? 0 : 1}];
+    }
+    EXPECT_EQ(cells.size(), 64U);
+    for (const auto& [cell, found] : cells) {
+        // 64 expected; random points would stray by 8 in one of three cells and by 20 in one of a hundred.
+        EXPECT_NEAR(found, 64, 14) << cell[0] << ' ' << cell[1] << ' ' << cell[2];
+    }
+}
+
+// Variance of the number of points that runs of a length have on a surface of a third of the area, over that
+// of random points, length * 1/3 * 2/3.
+double variance_of_runs(const std::vector<PointSample>& points, size_t length, uint32_t surface) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double runs = 0.0;
+    for (size_t first = 0; first + length <= points.size(); first += length) {
+        const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto on = static_cast<double>(
+            std::count_if(begin, begin + static_cast<std::ptrdiff_t>(length),
+                          [&](const PointSample& point) { return point.surface == surface; }));
+        sum += on;
+        squares += on * on;
+        runs += 1.0;
+    }
+    return (squares - sum * sum / runs) / (runs - 1.0) / (static_cast<double>(length) * 2.0 / 9.0);
+}
+
+TEST(PointSet, RunsAreStratified) {
+    Scene scene;
+    const int mesh = add_mesh(scene, square(1.0F));
+    place_mesh(scene, mesh);
+    place_mesh(scene, mesh, moved({5.0, 0.0, 1.0}) * scaled(glm::dvec3(std::sqrt(2.0))));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(1 << 16, 512, false));
+    EXPECT_LT(variance_of_runs(set.occluders, 512, 0), 0.01) << "a power of two: within one point";
+    // Any other length is a few powers of two.
+    for (const size_t length : {size_t{300}, size_t{805}, size_t{1000}}) {
+        EXPECT_LT(variance_of_runs(set.occluders, length, 0), 0.05) << length;
+    }
+}
+
+TEST(PointSet, RunsOfReflectorsFollowOneCurve) {
+    const Scene scene = mixed_scene();
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    PointCounts counts;
+    counts.reflectors_a_map = 128;
+    counts.reflectors = 128 * 32;
+    // What is on the hull reflects all the same.
+    const PointSet set = sample_points(parts, std::vector<bool>(parts.parts.size(), true), counts);
+    EXPECT_TRUE(set.occluders.empty());
+    EXPECT_TRUE(set.large.empty());
+    ASSERT_EQ(set.reflectors.size(), counts.reflectors);
+    EXPECT_NEAR(set.reflector_area_m2 / parts.area_m2(), 1.0, 1e-9);
+    double sum = 0.0;
+    for (const PointSample& point : set.reflectors) {
+        sum +=
+            static_cast<double>(point.share) * area_of(corners(scene, parts, point.surface, point.triangle));
+    }
+    EXPECT_NEAR(sum / parts.area_m2(), 1.0, 1e-5);
+    const auto place = [&](const PointSample& point) {
+        const std::array<glm::dvec3, 3> c = corners(scene, parts, point.surface, point.triangle);
+        return c[0] + (c[1] - c[0]) * static_cast<double>(point.second) +
+               (c[2] - c[0]) * static_cast<double>(point.third);
+    };
+    // The j-th points of all runs lie near each other, against points of runs picked anywhere.
+    double near = 0.0;
+    double any = 0.0;
+    for (size_t run = 1; run < 32; ++run) {
+        for (size_t j = 0; j < 128; ++j) {
+            const glm::dvec3 there = place(set.reflectors[run * 128 + j]);
+            near += glm::distance(place(set.reflectors[j]), there);
+            any += glm::distance(place(set.reflectors[(j + 41) % 128]), there);
+        }
+    }
+    EXPECT_LT(near, 0.4 * any);
+}
+
+TEST(PointSet, FlatPointsLieOnPlanes) {
+    Scene scene;
+    const int soup = place_mesh(scene, add_mesh(scene, triangle_soup(300, 2)));
+    const int wall = place_mesh(scene, add_mesh(scene, square(4.0F)));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(4096, 4096, false));
+    int flat = 0;
+    for (const PointSample& point : set.occluders) {
+        const int node = parts.surfaces[point.surface].node;
+        if (node == wall) {
+            EXPECT_TRUE(point.flat);
+            ++flat;
+        }
+        if (node == soup && point.flat) {
+            // Only where the triangle alone is large enough to be a plane of its own.
+            EXPECT_GT(area_of(corners(scene, parts, point.surface, point.triangle)), 0.002 * parts.area_m2());
+        }
+    }
+    EXPECT_GT(flat, 1000);
+}
+
+TEST(PointSet, PointsOnTheHullAreLeftOut) {
+    const Scene scene = mixed_scene();
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    std::vector<bool> on_hull(parts.parts.size(), false);
+    std::map<uint32_t, double> kept;
+    for (size_t i = 0; i < on_hull.size(); ++i) {
+        on_hull[i] = parts.parts[i].surface % 2 == 1;
+        if (!on_hull[i]) {
+            kept[parts.parts[i].surface] += parts.parts[i].area_m2;
+        }
+    }
+    const PointSet set = sample_points(parts, on_hull, occluders(2048, 64, true));
+    double area = 0.0;
+    for (const auto& [surface, part] : kept) {
+        area += part;
+    }
+    for (const PointSample& point : set.occluders) {
+        ASSERT_EQ(point.surface % 2, 0U);
+    }
+    for (const SurfaceTriangle& triangle : set.large) {
+        ASSERT_EQ(triangle.surface % 2, 0U);
+        area -= area_of(corners(scene, parts, triangle.surface, triangle.triangle));
+    }
+    EXPECT_NEAR(set.occluder_area_m2 / area, 1.0, 1e-6);
+}
+
+// Triangles by falling area, each taken while it would have six points of a map where the points are spread
+// over what is left; and none that would not have a sixteenth of that where they are spread over everything.
+size_t expected_large(const Scene& scene, const SurfaceParts& parts, double points) {
+    std::vector<double> areas;
+    for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
+        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
+        for (uint32_t t = 0; t < triangles; ++t) {
+            areas.push_back(area_of(corners(scene, parts, s, t)));
+        }
+    }
+    std::sort(areas.begin(), areas.end(), std::greater<>());
+    double left = 0.0;
+    for (const double area : areas) {
+        left += area;
+    }
+    const double least = 6.0 * left / points / 16.0;
+    size_t count = 0;
+    while (count < std::min(areas.size(), k_most_large_triangles) &&
+           areas[count] >= std::max(6.0 * left / points, least)) {
+        left -= areas[count++];
+    }
+    return count;
+}
+
+TEST(PointSet, LargeTrianglesAreTheLargest) {
+    for (const bool boxes : {false, true}) {
+        Scene scene = mixed_scene();
+        if (boxes) {
+            for (int i = 0; i < 10; ++i) {  // 120 triangles of a size: more than may be drawn whole
+                place_mesh(scene, 1, moved({0.0, 0.0, 3.0 + i}));
+            }
+        }
+        const SurfaceParts parts = surface_parts(scene, k_all_animations);
+        for (const size_t a_map : {size_t{64}, size_t{512}, size_t{4096}}) {
+            const PointSet set = sample_points(parts, none_on_hull(parts), occluders(4096, a_map, true));
+            EXPECT_EQ(set.large.size(), expected_large(scene, parts, static_cast<double>(a_map))) << a_map;
+            double least = 1e300;
+            std::map<std::pair<uint32_t, uint32_t>, int> taken;
+            for (const SurfaceTriangle& triangle : set.large) {
+                least = std::min(least, area_of(corners(scene, parts, triangle.surface, triangle.triangle)));
+                ++taken[{triangle.surface, triangle.triangle}];
+            }
+            EXPECT_EQ(taken.size(), set.large.size()) << "none twice";
+            for (const PointSample& point : set.occluders) {
+                ASSERT_EQ(taken.count({point.surface, point.triangle}), 0U)
+                    << "no points on what is drawn whole";
+                ASSERT_LE(area_of(corners(scene, parts, point.surface, point.triangle)),
+                          least * (1.0 + 1e-6));
+            }
+        }
+    }
+}
+
+TEST(PointSet, LargeTrianglesMayBeAllThereIs) {
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, box(glm::vec3(1.0F))));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(4096, 512, true));
+    EXPECT_EQ(set.large.size(), 12U);
+    EXPECT_TRUE(set.occluders.empty());
+    EXPECT_EQ(set.occluder_area_m2, 0.0);
+}
+
+TEST(PointSet, CutOutsAreNeverDrawnWhole) {
+    Scene scene;
+    Primitive p = square(4.0F);
+    p.material = 0;
+    scene.materials.resize(1);
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    place_mesh(scene, add_mesh(scene, p));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(256, 256, true));
+    EXPECT_TRUE(set.large.empty());
+    EXPECT_EQ(set.occluders.size(), 256U);
+}
+
+TEST(PointSet, SameInputSamePoints) {
+    const Scene scene = mixed_scene();
+    PointCounts counts = occluders(1000, 100, true);
+    counts.reflectors = 500;
+    counts.reflectors_a_map = 50;
+    const SurfaceParts a = surface_parts(scene, k_all_animations);
+    const SurfaceParts b = surface_parts(scene, k_all_animations);
+    const PointSet first = sample_points(a, none_on_hull(a), counts);
+    const PointSet second = sample_points(b, none_on_hull(b), counts);
+    const auto same = [](const PointSample& x, const PointSample& y) {
+        return x.surface == y.surface && x.triangle == y.triangle && x.second == y.second &&
+               x.third == y.third && x.share == y.share && x.flat == y.flat;
+    };
+    EXPECT_TRUE(std::equal(first.occluders.begin(), first.occluders.end(), second.occluders.begin(),
+                           second.occluders.end(), same));
+    EXPECT_TRUE(std::equal(first.reflectors.begin(), first.reflectors.end(), second.reflectors.begin(),
+                           second.reflectors.end(), same));
+    EXPECT_TRUE(std::equal(first.large.begin(), first.large.end(), second.large.begin(), second.large.end(),
+                           [](const SurfaceTriangle& x, const SurfaceTriangle& y) {
+                               return x.surface == y.surface && x.triangle == y.triangle;
+                           }));
+}
+
+TEST(PointSet, OfNothingIsEmpty) {
+    PointCounts counts = occluders(100, 10, true);
+    counts.reflectors = 100;
+    counts.reflectors_a_map = 10;
+    const PointSet empty = sample_points({}, {}, counts);
+    EXPECT_TRUE(empty.occluders.empty() && empty.reflectors.empty() && empty.large.empty());
+    EXPECT_EQ(empty.occluder_area_m2 + empty.reflector_area_m2, 0.0);
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, square(1.0F)));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet hull = sample_points(parts, {true}, counts);
+    EXPECT_TRUE(hull.occluders.empty() && hull.large.empty());
+    EXPECT_EQ(hull.reflectors.size(), 100U);
+    const PointSet none = sample_points(parts, {false}, {});
+    EXPECT_TRUE(none.occluders.empty() && none.reflectors.empty() && none.large.empty());
+}
+
+}  // namespace
+}  // namespace bounce::scene::test
