@@ -80,6 +80,7 @@
 #define VPL_CHUNK 16
 // Samples of each map that the near field takes at a pixel: 8 or 16.
 #define NEAR_SAMPLES 8
+#define NEAR_SAMPLES_GLOSSY 16
 // One group splats the points of one imperfect shadow map.
 #define GROUP_SPLAT 128
 // Tiles of such a map, and the triangles that one dispatch draws into it.
