@@ -60,6 +60,16 @@ float lobe(float a_dot_b, float sum_of_cosines, float smith_a, float smith_b, fl
     return alpha2 / (PI * t * t * smith_a * smith_b);
 }
 
+// A wider lobe sends more of its light below the horizon: single scattering by GGX loses about 1.2 alpha^2 of it. What
+// is only spread out must not lose that, so a lobe widened by w counts for this much more.
+float widening_gain(float widening) {
+    return 1.0 + 1.2 * min(widening, 0.25);
+}
+
+float widened_lobe(float a_dot_b, float sum_of_cosines, float smith_a, float smith_b, float alpha2, float widening) {
+    return lobe(a_dot_b, sum_of_cosines, smith_a, smith_b, min(alpha2 + widening, 1.0)) * widening_gain(widening);
+}
+
 // Schlick's rise of the Fresnel reflectance from normal incidence to grazing, from the cosine between the two
 // directions.
 float rise_between(float a_dot_b) {
@@ -92,8 +102,8 @@ vec3 vpl_intensity(GpuVpl vpl, vec3 w, float cos_out, float widening) {
 #endif
 #ifdef GLOSSY
     intensity += mix(vpl.glossy.rgb, vpl.arriving.rgb, rise_between(between)) *
-                 lobe(between, vpl.incident.w + cos_out, vpl.arriving.w, smith_term(cos_out, vpl.glossy.w),
-                      min(vpl.glossy.w + widening, 1.0));
+                 widened_lobe(between, vpl.incident.w + cos_out, vpl.arriving.w, smith_term(cos_out, vpl.glossy.w),
+                              vpl.glossy.w, widening);
 #endif
     return intensity;
 }
@@ -114,8 +124,8 @@ void add_vpl(GpuVpl vpl, Receiver r, vec3 w, float cos_out, float cos_in, float 
 #endif
     sum.irradiance += arriving * diffuse;
 #ifdef GLOSSY
-    float f = lobe(between, cos_in + r.n_dot_v, r.smith_view, smith_term(cos_in, r.alpha2),
-                   min(r.alpha2 + widening, 1.0));
+    float f = widened_lobe(between, cos_in + r.n_dot_v, r.smith_view, smith_term(cos_in, r.alpha2), r.alpha2,
+                           widening);
     sum.glossy += arriving * (mix(r.f0, vec3(r.f90), rise_between(between)) * f);
 #endif
 }

@@ -187,7 +187,9 @@ void main() {
 #if MAP_KIND != MAP_ORTHOGRAPHIC
     spread += WIDENING * measure * all;  // arriving directions: measure is a solid angle
 #endif
-    vpl.glossy.w = min(vpl.glossy.w + spread, 1.0);
+    float gain = widening_gain(spread);
+    vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
+    vpl.arriving.rgb *= gain;
 #endif
     float near_radius = min(NEAR_RADIUS * sqrt(area), NEAR_CAP);
 #endif
