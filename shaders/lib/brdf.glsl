@@ -53,7 +53,7 @@ vec3 diffuse_albedo(Surface s) {
 
 // GGX distribution and Smith's shadowing, as factors of the BRDF: D V, with the 1 / (4 n.l n.v) in V (Walter et
 // al. 2007, "Microfacet Models for Refraction through Rough Surfaces"). Shadowing towards light and viewer is
-// independent, as in Cycles before 4.0: at grazing angles it is up to two times darker than the
+// independent, as in Cycles before 4.0: at 75 degrees and roughness 1 it is a third darker than the
 // height-correlated kind (measured in docs/lights.md). n_cross_h: n x h, because 1 - (n.h)^2 as a difference has
 // no digits left where a highlight is narrow.
 float ggx_distribution_visibility(float n_dot_l, float n_dot_v, float n_dot_h, vec3 n_cross_h, float alpha) {

@@ -99,7 +99,7 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
     }
     p.disney = m.flags.x == DIFFUSE_DISNEY;
     float cos_out = max(dot(vpl.normal.xyz, p.from_light), 0.0);
-    p.arriving = vpl_intensity(vpl, p.from_light, cos_out) * cos_out;
+    p.arriving = vpl_intensity(vpl, p.from_light, cos_out, 0.0) * cos_out;
     p.profile = 1.0;
     p.area = PI * point.radius * point.radius * ism.splat.x;
 #ifndef SPLATTED

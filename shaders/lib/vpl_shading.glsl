@@ -14,6 +14,14 @@
 const float LEAST_VPL_ALPHA = 0.05;
 
 // What of a receiver is the same for every light.
+// A light stands for a piece of surface of area A, and a glossy lobe at either end turns a row of such lights into a row of
+// dots. Seen from a distance d the piece's directions spread by the variance s^2 = A / (12 d^2) along each axis if it is a
+// square across the ray; half vectors by s^2 / 4. alpha^2 is twice the variance of a lobe's slopes, so a lobe that has been
+// averaged over the piece has alpha^2 + A / (24 d^2) (as Hasan et al. 2009, "Virtual Spherical Lights for Many-Light
+// Rendering of Glossy Scenes", average over a ball). Twice that lets neighbouring pieces overlap as a reconstruction
+// filter must. The cosine of the piece to the ray is left out: at grazing angles a piece stays as long as it is.
+const float WIDENING = 1.0 / 12.0;
+
 struct Receiver {
     vec3 view;          // unit, towards the viewer
     float view_fifth;   // (1 - n.v)^5
@@ -52,6 +60,16 @@ float lobe(float a_dot_b, float sum_of_cosines, float smith_a, float smith_b, fl
     return alpha2 / (PI * t * t * smith_a * smith_b);
 }
 
+// A wider lobe sends more of its light below the horizon: single scattering by GGX loses about 1.2 alpha^2 of it. What
+// is only spread out must not lose that, so a lobe widened by w counts for this much more.
+float widening_gain(float widening) {
+    return 1.0 + 1.2 * min(widening, 0.25);
+}
+
+float widened_lobe(float a_dot_b, float sum_of_cosines, float smith_a, float smith_b, float alpha2, float widening) {
+    return lobe(a_dot_b, sum_of_cosines, smith_a, smith_b, min(alpha2 + widening, 1.0)) * widening_gain(widening);
+}
+
 // Schlick's rise of the Fresnel reflectance from normal incidence to grazing, from the cosine between the two
 // directions.
 float rise_between(float a_dot_b) {
@@ -71,8 +89,9 @@ float near_share(float squared_distance, float inverse_squared_radius) {
     return x * x;
 }
 
-// Light sent along the unit vector w by a light's diffuse and glossy lobes, W/sr over the cosine there.
-vec3 vpl_intensity(GpuVpl vpl, vec3 w, float cos_out) {
+// Light sent along the unit vector w by a light's diffuse and glossy lobes, W/sr over the cosine there. widening: added to
+// alpha^2 of the glossy one.
+vec3 vpl_intensity(GpuVpl vpl, vec3 w, float cos_out, float widening) {
     vec3 intensity = vpl.intensity.rgb;
 #if defined(DISNEY) || defined(GLOSSY)
     float between = -dot(vpl.incident.xyz, w);
@@ -83,17 +102,18 @@ vec3 vpl_intensity(GpuVpl vpl, vec3 w, float cos_out) {
 #endif
 #ifdef GLOSSY
     intensity += mix(vpl.glossy.rgb, vpl.arriving.rgb, rise_between(between)) *
-                 lobe(between, vpl.incident.w + cos_out, vpl.arriving.w, smith_term(cos_out, vpl.glossy.w),
-                      vpl.glossy.w);
+                 widened_lobe(between, vpl.incident.w + cos_out, vpl.arriving.w, smith_term(cos_out, vpl.glossy.w),
+                              vpl.glossy.w, widening);
 #endif
     return intensity;
 }
 
 // Adds a light seen along the unit vector w (from the light to the receiver), under the cosines cos_out at the
 // light and cos_in at the receiver. geometry: cos cos / d^2 times what of it counts; 0 where a cosine is not
-// positive.
-void add_vpl(GpuVpl vpl, Receiver r, vec3 w, float cos_out, float cos_in, float geometry, inout BouncedLight sum) {
-    vec3 arriving = vpl_intensity(vpl, w, cos_out) * geometry;
+// positive. widening: added to alpha^2 of both glossy lobes.
+void add_vpl(GpuVpl vpl, Receiver r, vec3 w, float cos_out, float cos_in, float geometry, float widening,
+             inout BouncedLight sum) {
+    vec3 arriving = vpl_intensity(vpl, w, cos_out, widening) * geometry;
     float diffuse = 1.0;
 #if defined(DISNEY) || defined(GLOSSY)
     float between = -dot(r.view, w);
@@ -104,7 +124,8 @@ void add_vpl(GpuVpl vpl, Receiver r, vec3 w, float cos_out, float cos_in, float 
 #endif
     sum.irradiance += arriving * diffuse;
 #ifdef GLOSSY
-    float f = lobe(between, cos_in + r.n_dot_v, r.smith_view, smith_term(cos_in, r.alpha2), r.alpha2);
+    float f = widened_lobe(between, cos_in + r.n_dot_v, r.smith_view, smith_term(cos_in, r.alpha2), r.alpha2,
+                           widening);
     sum.glossy += arriving * (mix(r.f0, vec3(r.f90), rise_between(between)) * f);
 #endif
 }

@@ -26,7 +26,13 @@ layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock {
 
 // From its rim to its innermost sample the spiral spans this factor.
 const float SPAN = 256.0;
-const float LOG_STEP = log(SPAN) / float(NEAR_SAMPLES);
+// Lobes need more samples than cosines do.
+#ifdef GLOSSY
+#define SAMPLES NEAR_SAMPLES_GLOSSY
+#else
+#define SAMPLES NEAR_SAMPLES
+#endif
+const float LOG_STEP = log(SPAN) / float(SAMPLES);
 const float GOLDEN_ANGLE = 2.39996322972865;
 
 // Point of the spiral inside the unit disk; an integer's place is a constant.
@@ -34,6 +40,10 @@ vec2 spiral(int i) {
     float angle = GOLDEN_ANGLE * float(i);
     return exp(-LOG_STEP * float(i)) * vec2(cos(angle), sin(angle));
 }
+
+// As WIDENING, for a sample: the blur averages the samples of a block of pixels, so each needs to fill less of the gaps
+// between them. None leaves fireflies, much more darkens reflections near contact; docs/glossy.md has the measurement.
+const float NEAR_WIDENING = WIDENING / 8.0;
 
 struct Center {
     Surface s;
@@ -55,7 +65,9 @@ void add_sample(Center at, vec2 st, int layer, float measure, inout BouncedLight
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
     float side = surface_area(p, at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30));
     float share = near_share(squared, 1.0 / max(min(NEAR_RADIUS * NEAR_RADIUS * side, NEAR_CAP * NEAR_CAP), 1e-30));
-    add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse, sum);
+    float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
+    add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,
+            widening, sum);
 }
 
 void main() {
@@ -119,7 +131,7 @@ void main() {
         SAMPLE_MAP(i, u)                                                                           \
     }
     NEAR(0) NEAR(1) NEAR(2) NEAR(3) NEAR(4) NEAR(5) NEAR(6) NEAR(7)
-#if NEAR_SAMPLES == 16
+#if SAMPLES == 16
     NEAR(8) NEAR(9) NEAR(10) NEAR(11) NEAR(12) NEAR(13) NEAR(14) NEAR(15)
 #endif
     if (depth == 0.0 || any(greaterThanEqual(pixel, frame.size.xy))) {

@@ -171,6 +171,7 @@ void main() {
     PixelLight chosen = children[hash(uint(index)) % uint(CHILDREN)];
     vec3 center = vec3(0.0);
     vec3 color = vec3(0.0);
+    vec3 normal = vec3(0.0);
     float area = 0.0;
     float measure = 0.0;
     float members = 0.0;
@@ -182,6 +183,7 @@ void main() {
         if (member[i]) {
             members += 1.0;
             center += children[i].position;
+            normal += children[i].normal;
             color += children[i].color * measures[i];
             measure += measures[i];
             area += surface_area(children[i], measures[i]);
@@ -201,6 +203,17 @@ void main() {
     middle.color = color / max(measure, 1e-30);
     GpuVpl vpl = make_vpl(middle, measure * all);
     area *= all;
+#ifdef GLOSSY
+    // Its lobe is the mean over all the surface it stands for (Toksvig 2005, "Mipmapping Normal Maps"): normals that vary
+    // by s^2 along each axis have a mean of length 1 - s^2 and add 2 s^2 to alpha^2.
+    float spread = 2.0 * (1.0 - length(normal) / members);
+#if MAP_KIND != MAP_ORTHOGRAPHIC
+    spread += WIDENING * measure * all;  // arriving directions: measure is a solid angle
+#endif
+    float gain = widening_gain(spread);
+    vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
+    vpl.arriving.rgb *= gain;
+#endif
     float near_radius = min(NEAR_RADIUS * sqrt(area), NEAR_CAP);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;

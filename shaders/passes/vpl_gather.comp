@@ -45,7 +45,8 @@ void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight s
 #ifdef VISIBILITY
     geometry *= vpl_visibility(vpl, w, squared * inverse, cos_out, cos_in, map_size);
 #endif
-    add_vpl(vpl, r, w, max(cos_out, 0.0), max(cos_in, 0.0), geometry, sum);
+    float widening = WIDENING * vpl.position.w * inverse * inverse;
+    add_vpl(vpl, r, w, max(cos_out, 0.0), max(cos_in, 0.0), geometry, widening, sum);
 }
 
 void main() {

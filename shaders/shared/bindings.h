@@ -83,6 +83,7 @@
 #define VPL_CHUNK 16
 // Samples of each map that the near field takes at a pixel: 8 or 16.
 #define NEAR_SAMPLES 8
+#define NEAR_SAMPLES_GLOSSY 16
 // Depth samples a pixel for antialiasing. OpenGL promises four.
 #define AA_SAMPLES 4
 // One group splats the points of one imperfect shadow map.

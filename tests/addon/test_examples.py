@@ -6,7 +6,9 @@ import pytest
 from conftest import ROOT
 from gltf_eval import Gltf
 
-TRIANGLES = {"cornell": (62_986, 62_986), "colonnade": (20_000, 100_000), "table": (20_000, 100_000)}
+TRIANGLES = {"cornell": (62_986, 62_986), "colonnade": (20_000, 100_000), "table": (20_000, 100_000),
+             "u_room": (300, 5_000), "ring": (5_000, 50_000), "courtyard": (3_000, 50_000)}
+FRAMES = {"courtyard": 240}
 
 
 @pytest.fixture(scope="module", params=TRIANGLES)
@@ -22,7 +24,7 @@ def test_example(example):
     bounce_schema.validate(gltf.json)
     root = gltf.bounce
     assert root["unsupported"] == []
-    assert root["frames"] == {"start": 1, "end": 48, "fps": 24}
+    assert root["frames"] == {"start": 1, "end": FRAMES.get(name, 48), "fps": 24}
     assert (root["render"]["width"], root["render"]["height"]) == (640, 360)
     assert root["view"]["view_transform"] == "Standard" and "camera" in root
     drawn = [node["mesh"] for node in gltf.json["nodes"] if "mesh" in node]
@@ -30,6 +32,10 @@ def test_example(example):
                     for mesh in drawn for p in gltf.json["meshes"][mesh]["primitives"])
     low, high = TRIANGLES[name]
     assert low <= triangles <= high
+
+
+def material_of(gltf, node):
+    return gltf.json["meshes"][gltf.json["nodes"][gltf.node(node)]["mesh"]]["primitives"][0]["material"]
 
 
 def test_example_moves(example):
@@ -42,6 +48,15 @@ def test_example_moves(example):
     elif name == "colonnade":
         assert {(gltf.node("Sun"), "rotation"), (gltf.node("Camera"), "translation")} <= set(channels)
         assert len({n["mesh"] for n in gltf.json["nodes"] if n["name"].startswith("Column ")}) == 1, "not shared"
+    elif name == "u_room":
+        assert (gltf.node("Spot"), "rotation") in channels
+    elif name == "ring":
+        assert {(gltf.node("Cloth"), "weights"), (gltf.node("Cloth"), "translation")} <= set(channels)
+        assert gltf.json["materials"][material_of(gltf, "Ring")]["pbrMetallicRoughness"].get("metallicFactor", 1) == 1
+    elif name == "courtyard":
+        moving = {("Searchlight", "rotation"), ("Searchlight", "translation"), ("Ball", "rotation"),
+                  ("Ball", "translation"), ("Gate hinge", "rotation"), ("Camera", "translation"), ("Camera", "rotation")}
+        assert {(gltf.node(node), path) for node, path in moving} <= set(channels)
     else:
         assert {"translation", "rotation", "weights"} <= paths
         assert {"power_w", "color", "cone_angle_rad"} <= pointers
