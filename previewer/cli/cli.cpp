@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
     add_view(app, run_command);
     add_info(app, run_command);
     add_evaluate(app, run_command);
+    add_bench(app, run_command);
 
     try {
         app.parse(argc, argv);

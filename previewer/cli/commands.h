@@ -19,5 +19,6 @@ void add_compare(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_evaluate(CLI::App& app, Run& run);
+void add_bench(CLI::App& app, Run& run);
 
 }  // namespace bounce::cli

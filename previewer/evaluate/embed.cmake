@@ -1,6 +1,6 @@
 # Writes OUTPUT, a C++ file with a function for the text of every one of FILES: the function of
-# "report.html" is embedded::report_html().
-set(text "// Generated; do not edit.\n#include \"evaluate/embedded.h\"\n\nnamespace bounce::embedded {\n")
+# "report.html" is embedded::report_html(). HEADER declares them.
+set(text "// Generated; do not edit.\n#include \"${HEADER}\"\n\nnamespace bounce::embedded {\n")
 foreach(file IN LISTS FILES)
   get_filename_component(name "${file}" NAME)
   string(REPLACE ".min" "" name "${name}")

@@ -11,6 +11,8 @@ namespace bounce::embedded {
 [[nodiscard]] std::string_view cycles_import_gltf_py();
 [[nodiscard]] std::string_view report_html();
 [[nodiscard]] std::string_view report_js();
-[[nodiscard]] std::string_view chart_js();  // Chart.js 3, minified, with its notice
+[[nodiscard]] std::string_view report_css();
+[[nodiscard]] std::string_view chart_notice_txt();
+[[nodiscard]] std::string_view chart_js();  // Chart.js 3, minified
 
 }  // namespace bounce::embedded

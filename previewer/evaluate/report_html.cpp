@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "evaluate/embedded.h"
+#include "evaluate/page.h"
 #include "evaluate/report.h"
 #include "evaluate/scratch_folder.h"
 #include "image/heatmap.h"
@@ -47,24 +48,6 @@ std::string data_uri(const Image& display, const ScratchFolder& scratch) {
     return "data:image/png;base64," + base64(bytes);
 }
 
-// Replaces the one place where marker stands. Throws where our own template lacks it.
-void put(std::string& page, std::string_view marker, std::string_view text) {
-    const size_t at = page.find(marker);
-    if (at == std::string::npos) {
-        throw Error(ExitCode::failed, fmt::format("the report's template lacks {}", marker));
-    }
-    page.replace(at, marker.size(), text);
-}
-
-// JSON inside a <script> element: "<" would let a scene's name end the element.
-std::string json_for_script(const nlohmann::ordered_json& json) {
-    std::string text;
-    for (const char c : json.dump()) {
-        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-    }
-    return text;
-}
-
 nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
     const ScratchFolder scratch;
     const auto shown = shown_points(evaluation);
@@ -96,11 +79,13 @@ nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
 
 std::string results_html(const Evaluation& evaluation) {
     std::string page(embedded::report_html());
+    put_into_page(page, "/*STYLE*/", embedded::report_css());
+    put_into_page(page, "/*CHART_NOTICE*/", embedded::chart_notice_txt());
     // The data last: its text could hold a marker.
-    put(page, "/*CHART_JS*/", embedded::chart_js());
-    put(page, "/*REPORT_JS*/", embedded::report_js());
-    put(page, "/*PICTURES*/", json_for_script(pictures_json(evaluation)));
-    put(page, "/*RESULTS*/", json_for_script(results_json(evaluation)));
+    put_into_page(page, "/*CHART_JS*/", embedded::chart_js());
+    put_into_page(page, "/*REPORT_JS*/", embedded::report_js());
+    put_into_page(page, "/*PICTURES*/", json_for_script(pictures_json(evaluation)));
+    put_into_page(page, "/*RESULTS*/", json_for_script(results_json(evaluation)));
     return page;
 }
 

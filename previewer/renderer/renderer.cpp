@@ -192,6 +192,13 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         report.rsm_samples += plan.indirect ? samples[i] : 0;
     }
     const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan);
+    if (!bounces.empty()) {
+        report.vpls = bounces.front().lights.maps;
+    }
+    if (!bounces.empty() && plan.occluded) {
+        report.points_a_map = bounces.front().lights.points_a_map;
+        report.large_triangles = points_->large_triangles();
+    }
     uniforms_.upload();
     report.left_out = plan.left_out;
 

@@ -33,6 +33,11 @@ struct FrameReport {
     int rsm_samples = 0;  // a pixel, over all lights
     int lights = 0;
     int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
+
+    // Virtual point lights and their shadow maps; 0 where there are none.
+    int vpls = 0;
+    int points_a_map = 0;  // splatted into each map
+    size_t large_triangles = 0;
 };
 
 // Draws a scene. Needs a current context set up by gl::initialise_current_context() for its whole life.

@@ -2,7 +2,7 @@
 """What a user may get wrong on the command line: exit code 2 and one line that says so."""
 import pytest
 
-SUBCOMMANDS = ["render", "view", "info", "compare", "evaluate"]
+SUBCOMMANDS = ["render", "view", "info", "compare", "evaluate", "bench"]
 
 
 def refused(result, *words):

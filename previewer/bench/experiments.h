@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The experiments of `bounce bench`, each a function from a scene to a report.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/bench_report.h"
+#include "bench/frame_bench.h"
+#include "renderer/settings.h"
+#include "scene/scene.h"
+
+namespace bounce::bench {
+
+// Settings that the user gave stand for the experiment's own; what an experiment varies it varies all the
+// same.
+struct BenchOptions {
+    std::optional<int> width, height;
+    std::optional<int> frame;
+    std::string camera;
+    std::optional<int> repeat;
+    std::optional<int> vpls;
+    std::optional<int> points;
+    std::optional<int> ism_size;
+    std::optional<int> interleave;
+    std::optional<Splat> splat;
+    int least_triangles = 70'000;  // ism-creation
+    bool quick = false;            // few values, small picture, one repetition
+};
+
+struct BenchInputs {
+    const scene::Scene& scene;
+    const BenchOptions& options;
+    gl::TimingMode timing;
+    const InterruptGuard& interrupts;
+
+    // The frame that was asked for, or the scene's first.
+    [[nodiscard]] double frame() const;
+    [[nodiscard]] int repeat() const;
+    // Defaults of the program with what the user gave; 640x360 without --size, a quarter of that with
+    // --quick.
+    [[nodiscard]] Settings settings() const;
+    [[nodiscard]] FrameBench bench(const scene::Scene& scene) const;
+    // The first two values where it has to be quick.
+    template <typename T>
+    [[nodiscard]] std::vector<T> values(std::vector<T> all) const {
+        if (options.quick && all.size() > 2) all.resize(2);
+        return all;
+    }
+};
+
+// Fills tables, plots, checks and the paper's words; the caller says on what machine it was.
+using RunExperiment = void (*)(const BenchInputs& inputs, BenchReport& report);
+void measure_rates(const BenchInputs& inputs, BenchReport& report);
+void measure_ism_error(const BenchInputs& inputs, BenchReport& report);
+void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report);
+void measure_screen_sizes(const BenchInputs& inputs, BenchReport& report);
+void measure_ism_creation(const BenchInputs& inputs, BenchReport& report);
+
+struct Experiment {
+    std::string_view name;
+    std::string_view title;
+    std::string_view summary;  // for --help, a phrase
+    RunExperiment run;
+};
+[[nodiscard]] const std::vector<Experiment>& experiments();
+
+// Throws usage_error, which lists the names there are.
+[[nodiscard]] const Experiment& find_experiment(std::string_view name);
+
+// Runs it and describes the run: settings, machine, driver. command: as typed.
+[[nodiscard]] BenchReport run_experiment(const Experiment& experiment, const BenchInputs& inputs,
+                                         const gl::DeviceInfo& device, const std::string& command);
+
+// "64 x 64 texels"-free names that the options use as well.
+[[nodiscard]] std::string splat_name(Splat splat);
+
+// The times of one setting as a row, in the order of part_columns(): the label, frame best and median, parts.
+[[nodiscard]] std::vector<Column> part_columns(const Column& label);
+[[nodiscard]] std::vector<Cell> part_row(const Cell& label, const MeasuredFrame& measured);
+// Stacked bars of the parts of several settings.
+[[nodiscard]] Plot part_plot(const std::string& title, const std::string& x_label,
+                             const std::vector<std::pair<std::string, MeasuredFrame>>& bars);
+
+// Triangles that a frame of the scene draws.
+[[nodiscard]] size_t drawn_triangles(const BenchInputs& inputs);
+
+inline constexpr std::string_view k_paper_machine =
+    "Ritschel et al. 2008 (1.8 GHz CPU, NVIDIA GeForce 8800 GTX)";
+
+}  // namespace bounce::bench

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/scene.h"
+
+namespace bounce::bench {
+
+// A scene for measurements that need none in particular: a closed room 6 m wide with coloured side walls,
+// twelve spheres and a free-standing wall, under one spot; 49,176 triangles.
+[[nodiscard]] scene::Scene make_room();
+
+}  // namespace bounce::bench

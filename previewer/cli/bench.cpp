@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "bench/experiments.h"
+#include "bench/room.h"
+#include "cli/commands.h"
+#include "cli/frame_list.h"
+#include "cli/scene_source.h"
+#include "core/atomic_file.h"
+#include "core/interrupt.h"
+#include "core/log.h"
+#include "evaluate/machine.h"
+#include "gl/context.h"
+
+namespace bounce::cli {
+namespace {
+
+using bench::BenchOptions;
+
+const std::map<std::string, Splat> k_splats = {
+    {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+
+constexpr int k_least_vpls = 16;
+// Their maps of 256x256 fill the largest texture that drivers commonly have.
+constexpr int k_most_vpls = 4096;
+
+struct BenchArguments {
+    std::string experiment;
+    std::string scene;
+    std::string size;
+    std::filesystem::path output;
+    SceneSourceOptions source;
+    BenchOptions options;
+};
+
+scene::Scene bench_scene(const BenchArguments& arguments) {
+    if (arguments.scene.empty()) {
+        return bench::make_room();
+    }
+    scene::LoadResult loaded = load_scene(arguments.scene, arguments.source);
+    for (const std::string& warning : loaded.warnings) {
+        log::warning("{}", warning);
+    }
+    return std::move(loaded.scene);
+}
+
+ExitCode run_bench(BenchArguments arguments) {
+    const bench::Experiment& experiment = bench::find_experiment(arguments.experiment);
+    if (!arguments.size.empty()) {
+        std::tie(arguments.options.width, arguments.options.height) = parse_size(arguments.size);
+    }
+    const scene::Scene scene = bench_scene(arguments);
+    require_writable(arguments.output / "results.json");
+
+    const gl::HeadlessContext context;
+    const gl::DeviceInfo device = gl::initialise_current_context();
+    const InterruptGuard interrupts;
+    const bench::BenchInputs inputs{scene, arguments.options,
+                                    device.software ? gl::TimingMode::finish : gl::TimingMode::query,
+                                    interrupts};
+    const bench::BenchReport report = bench::run_experiment(experiment, inputs, device, this_command());
+    bench::write_bench_report(report, arguments.output);
+    fmt::print("{}\nreport: {}\n", bench::report_text(report), (arguments.output / "index.html").string());
+    return ExitCode::done;
+}
+
+std::string experiment_list() {
+    std::string text = "Experiments:\n";
+    for (const bench::Experiment& experiment : bench::experiments()) {
+        text += fmt::format("  {:<14}{}\n", experiment.name, experiment.summary);
+    }
+    return text +
+           "Each prints its tables and writes results.json and index.html, a page with plots that needs no\n"
+           "network. It measures the program's own passes in steady state. docs/bench.md has the details.";
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Run& run) {
+    CLI::App* command = app.add_subcommand("bench", "Measure times and errors of the renderer's own passes");
+    const auto arguments = std::make_shared<BenchArguments>();
+    BenchOptions& options = arguments->options;
+    command->add_option("experiment", arguments->experiment, "What to measure; listed below")->required();
+    command->add_option("scene", arguments->scene,
+                        "Scene: .glb, .gltf or .blend; without it a room made in memory");
+    command->add_option("-o,--output", arguments->output, "Folder for results.json and index.html")
+        ->required();
+    command->add_option("--frame", options.frame, "Frame by Blender's number; the scene's first by default");
+    command->add_option("--camera", options.camera,
+                        "Camera node by name; the scene's active camera by default");
+    command->add_option("--size", arguments->size, "Width and height in pixels; 640x360 by default");
+    command->add_option("--repeat", options.repeat, "Times each setting is measured; 5 by default")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--vpls", options.vpls, "Virtual point lights where they are not varied")
+        ->check(CLI::Range(k_least_vpls, k_most_vpls));
+    command->add_option("--points", options.points, "Points a map where they are not varied")
+        ->check(CLI::Range(16, 1 << 16));
+    command->add_option("--ism-size", options.ism_size, "Texels a side of a map where it is not varied")
+        ->check(CLI::IsMember({32, 64, 128, 256}));
+    command
+        ->add_option("--interleave", options.interleave, "Side of a block of pixels where it is not varied")
+        ->check(CLI::IsMember({1, 2, 4, 8, 16}));
+    command
+        ->add_option_function<std::string>(
+            "--splat", [&options](const std::string& name) { options.splat = k_splats.at(name); },
+            "How points are splatted where it is not varied")
+        ->check(CLI::IsMember(&k_splats));
+    command
+        ->add_option("--triangles", options.least_triangles,
+                     "ism-creation: triangles to split the scene's into, at least")
+        ->check(CLI::Range(1, 20'000'000))
+        ->capture_default_str();
+    command->add_flag("--quick", options.quick,
+                      "Few values, 160x90 pixels, once each: to see that it works, not to measure");
+    add_scene_source_options(*command, arguments->source);
+    command->footer(experiment_list());
+    command->callback([arguments, &run] { run = [arguments] { return run_bench(*arguments); }; });
+}
+
+}  // namespace bounce::cli

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`bounce bench`: one experiment end to end, and what it refuses."""
+import json
+
+import pytest
+
+EXPERIMENTS = ["rates", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation"]
+TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
+
+
+def refused(result, *words):
+    assert result.returncode == 2, (result.returncode, result.stderr)
+    assert len(result.stderr.splitlines()) == 1, result.stderr
+    for word in words:
+        assert word in result.stderr
+
+
+def test_a_quick_experiment_end_to_end(bounce, tmp_path):
+    """Without a scene: the room is made in memory."""
+    result = bounce("bench", "rates", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert report["schema"] == "bounce.bench/1"
+    assert report["experiment"] == "rates"
+    assert report["machine"]["cpu"] and report["gl"]["renderer"]
+    assert report["settings"]["size"] == "32x18" and report["settings"]["VPLs"] == "16"
+    assert "glFinish" in report["timing"] or "queries" in report["timing"]
+    assert any("GeForce 8800 GTX" in line for line in report["paper"])
+    tables = {table["title"]: table for table in report["tables"]}
+    assert {"Gather rate", "Splat rate by path and map size", "Where a frame's time goes"} <= tables.keys()
+    for table in report["tables"]:
+        assert table["rows"]
+        assert all(len(row) == len(table["columns"]) for row in table["rows"])
+    # 16 lights over 2 x 2 pixels; 32 x 18 pixels; the rate is of these and the time beside it.
+    for name, vpls, ms, rate, median in tables["Gather rate"]["rows"]:
+        assert vpls == 4
+        assert rate == pytest.approx(32 * 18 * 4 / ms / 1e3)
+    for name, size, ms, rate, median in tables["Splat rate by path and map size"]["rows"]:
+        assert size == 32
+        assert rate == pytest.approx(16 * 64 / ms / 1e3)
+    whole = {row[0]: row for row in tables["Where a frame's time goes"]["rows"]}
+    assert whole["whole frame"][4] == 100
+    assert 0 < whole["neither splat nor gather"][4] < 100
+    assert "gbuffer" in whole and "vpl gather" in whole
+    assert {check["unit"] for check in report["checks"]} == {"M points/s", "M evaluations/s"}
+    assert all(check["met"] == (check["value"] >= check["limit"]) for check in report["checks"])
+    page = (tmp_path / "out" / "index.html").read_text()
+    assert "Chart.js v3" in page and 'src="http' not in page
+    # The same on the terminal.
+    assert "Gather rate" in result.stdout and report["machine"]["cpu"] in result.stdout
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["index.html", "results.json"]
+
+
+def test_unknown_experiment_lists_the_known(bounce, tmp_path):
+    refused(bounce("bench", "rate", "-o", "out"), "'rate'", *EXPERIMENTS)
+    assert not (tmp_path / "out").exists()
+
+
+def test_help_names_every_experiment(bounce):
+    result = bounce("bench", "--help")
+    assert result.returncode == 0
+    for name in EXPERIMENTS:
+        assert name in result.stdout
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        ("--repeat", "0"),
+        ("--size", "640"),
+        ("--vpls", "8"),
+        ("--vpls", "100000"),
+        ("--points", "0"),
+        ("--ism-size", "100"),
+        ("--interleave", "3"),
+        ("--splat", "triangles"),
+        ("--triangles", "0"),
+        ("--frame", "one"),
+    ],
+    ids=" ".join,
+)
+def test_bad_values(bounce, option, tmp_path):
+    refused(bounce("bench", "rates", "-o", "out", *option), option[0].lstrip("-"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_missing_output_and_missing_scene(bounce, tmp_path):
+    refused(bounce("bench", "rates"), "--output")
+    result = bounce("bench", "rates", "nowhere.glb", "-o", "out")
+    assert result.returncode == 3
+    assert "nowhere.glb" in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_scene_without_bounced_light(bounce, scene):
+    """The spot has no power at the first frame."""
+    result = bounce("bench", "rates", scene, "-o", "out", *TINY)
+    assert result.returncode == 3, result.stderr
+    assert "scene.glb" in result.stderr and "light" in result.stderr
+
+
+def test_an_unknown_camera(bounce):
+    refused(bounce("bench", "rates", "-o", "out", "--camera", "Nobody", *TINY), "Nobody")
