@@ -2,6 +2,7 @@
 #include "bench/experiments.h"
 
 #include <algorithm>
+#include <cassert>
 #include <ctime>
 
 #include <fmt/chrono.h>
@@ -126,6 +127,13 @@ std::string splat_name(Splat splat) {
             break;
     }
     return "points";
+}
+
+void change_setting(BenchReport& report, std::string_view name, const std::string& value) {
+    const auto found = std::find_if(report.settings.begin(), report.settings.end(),
+                                    [&](const auto& setting) { return setting.first == name; });
+    assert(found != report.settings.end());
+    found->second = value;
 }
 
 std::vector<Column> part_columns(const Column& label) {

@@ -75,8 +75,11 @@ struct Experiment {
 [[nodiscard]] BenchReport run_experiment(const Experiment& experiment, const BenchInputs& inputs,
                                          const gl::DeviceInfo& device, const std::string& command);
 
-// "64 x 64 texels"-free names that the options use as well.
+// As the options name it.
 [[nodiscard]] std::string splat_name(Splat splat);
+
+// What an experiment does with a setting, where it is not what the user or the program's default says.
+void change_setting(BenchReport& report, std::string_view name, const std::string& value);
 
 // The times of one setting as a row, in the order of part_columns(): the label, frame best and median, parts.
 [[nodiscard]] std::vector<Column> part_columns(const Column& label);

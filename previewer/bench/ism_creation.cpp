@@ -36,6 +36,9 @@ void measure_ism_creation(const BenchInputs& inputs, BenchReport& report) {
     // Only the maps are timed.
     settings.width = inputs.options.width.value_or(64);
     settings.height = inputs.options.height.value_or(36);
+    change_setting(report, "size", fmt::format("{}x{}", settings.width, settings.height));
+    change_setting(report, "map size", "varied");
+    change_setting(report, "splat", "varied");
     FrameBench bench = inputs.bench(scene);
     Progress progress("bench ism-creation", static_cast<int>(sizes.size() * (makers.size() + 1)));
 
