@@ -6,13 +6,21 @@
 // way down a hole takes what the coarser level has there, interpolated. PAPER: so does a texel that lies farther
 // behind it than the push threshold. Thresholds double with each level.
 //
-// The including shader defines SIDE (a power of two), LEVELS (0 to 3), GROUP_SIZE, and fills fine[].
+// The including shader defines SIDE (a power of two), LEVELS (0 to 3), GROUP_SIZE, and fills level 0, fine[].
+// FINE_BITS: a shared array of uint that it has already, of SIDE x SIDE, which then holds level 0 as float bits.
 #ifndef LIB_PULL_PUSH
 #define LIB_PULL_PUSH
 
 const float HOLE = -1.0;
 
+#ifdef FINE_BITS
+#define LOAD_FINE(i) uintBitsToFloat(FINE_BITS[i])
+#define STORE_FINE(i, depth) FINE_BITS[i] = floatBitsToUint(depth)
+#else
 shared float fine[SIDE * SIDE];
+#define LOAD_FINE(i) fine[i]
+#define STORE_FINE(i, depth) fine[i] = depth
+#endif
 // Levels 1, 2, ... one after the other.
 shared float coarse[SIDE * SIDE / 3 + 1];
 
@@ -25,13 +33,13 @@ float level_load(int level, ivec2 texel) {
     int side = SIDE >> level;
     texel = clamp(texel, ivec2(0), ivec2(side - 1));
     int place = texel.y * side + texel.x;
-    return level == 0 ? fine[place] : coarse[level_begin(level) + place];
+    return level == 0 ? LOAD_FINE(place) : coarse[level_begin(level) + place];
 }
 
 void level_store(int level, ivec2 texel, float depth) {
     int place = texel.y * (SIDE >> level) + texel.x;
     if (level == 0) {
-        fine[place] = depth;
+        STORE_FINE(place, depth);
     } else {
         coarse[level_begin(level) + place] = depth;
     }

@@ -17,6 +17,7 @@ shared uint nearest[MAP_SIZE * MAP_SIZE];
 layout(location = 0) uniform vec2 thresholds;  // pull, push
 layout(binding = IMG_OUT1, r32ui) writeonly uniform uimage2D filled_image;
 #define SIDE MAP_SIZE
+#define FINE_BITS nearest  // a second array would not fit beside it
 #include "lib/pull_push.glsl"
 #endif
 #endif
@@ -62,11 +63,12 @@ void main() {
     }
 #ifdef LEVELS
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
-        fine[i] = nearest[i] == ISM_EMPTY ? HOLE : unpackHalf2x16(nearest[i]).y;
+        STORE_FINE(i, nearest[i] == ISM_EMPTY ? HOLE : unpackHalf2x16(nearest[i]).y);
     }
     pull_push(me, thresholds.x, thresholds.y);
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
-        uint bits = fine[i] < 0.0 ? ISM_EMPTY : pack_ism(fine[i], vec2(0.0));
+        float depth = LOAD_FINE(i);
+        uint bits = depth < 0.0 ? ISM_EMPTY : pack_ism(depth, vec2(0.0));
         imageStore(filled_image, origin + ivec2(i % MAP_SIZE, i / MAP_SIZE), uvec4(bits));
     }
 #endif
