@@ -180,14 +180,12 @@ Plot part_plot(const std::string& title, const std::string& x_label,
     return plot;
 }
 
-size_t drawn_triangles(const BenchInputs& inputs) {
-    const scene::Pose pose =
-        scene::evaluate_pose(inputs.scene, scene::time_of_frame(inputs.scene.frames, inputs.frame()),
-                             scene::default_animation(inputs.scene));
+size_t drawn_triangles(const scene::Scene& scene, double frame) {
+    const scene::Pose pose = scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frame),
+                                                  scene::default_animation(scene));
     size_t triangles = 0;
     for (const scene::DrawInstance& draw : pose.draws) {
-        for (const scene::Primitive& primitive :
-             inputs.scene.meshes[static_cast<size_t>(draw.mesh)].primitives) {
+        for (const scene::Primitive& primitive : scene.meshes[static_cast<size_t>(draw.mesh)].primitives) {
             triangles += primitive.indices.size() / 3;
         }
     }

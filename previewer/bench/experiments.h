@@ -88,8 +88,8 @@ void change_setting(BenchReport& report, std::string_view name, const std::strin
 [[nodiscard]] Plot part_plot(const std::string& title, const std::string& x_label,
                              const std::vector<std::pair<std::string, MeasuredFrame>>& bars);
 
-// Triangles that a frame of the scene draws.
-[[nodiscard]] size_t drawn_triangles(const BenchInputs& inputs);
+// Triangles that a frame of the scene draws, instances counted.
+[[nodiscard]] size_t drawn_triangles(const scene::Scene& scene, double frame);
 
 inline constexpr std::string_view k_paper_machine =
     "Ritschel et al. 2008 (1.8 GHz CPU, NVIDIA GeForce 8800 GTX)";
