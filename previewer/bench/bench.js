@@ -98,6 +98,9 @@
   };
 
   const stacked = (canvas, plot) => {
+    // Many bars have names that do not fit under them.
+    const lying = plot.bars.length > 8;
+    const [names, values] = lying ? ["y", "x"] : ["x", "y"];
     const datasets = plot.series.map((series, index) => ({
       label: series.name,
       data: plot.bars.map((_, bar) => (series.points.find((point) => point.x === bar) || { y: 0 }).y),
@@ -108,11 +111,11 @@
       type: "bar",
       data: { labels: plot.bars, datasets },
       options: {
-        animation: false, maintainAspectRatio: false,
+        animation: false, maintainAspectRatio: false, indexAxis: names,
         scales: {
-          x: { stacked: true, grid: { display: false }, ticks: { color: soft },
-            title: { display: true, text: plot.x.label, color: soft, font: { size: 13 } } },
-          y: { ...axis(plot.y), stacked: true },
+          [names]: { stacked: true, grid: { display: false }, ticks: { color: soft, autoSkip: false },
+            title: { display: plot.x.label !== "", text: plot.x.label, color: soft, font: { size: 13 } } },
+          [values]: { ...axis(plot.y), stacked: true },
         },
         plugins: { legend: { ...legend, labels: { ...legend.labels, usePointStyle: true, pointStyle: "rect" } },
           tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${number(item.raw)}` } } },

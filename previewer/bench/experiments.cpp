@@ -2,6 +2,7 @@
 #include "bench/experiments.h"
 
 #include <algorithm>
+#include <cassert>
 #include <ctime>
 
 #include <fmt/chrono.h>
@@ -128,6 +129,13 @@ std::string splat_name(Splat splat) {
     return "points";
 }
 
+void change_setting(BenchReport& report, std::string_view name, const std::string& value) {
+    const auto found = std::find_if(report.settings.begin(), report.settings.end(),
+                                    [&](const auto& setting) { return setting.first == name; });
+    assert(found != report.settings.end());
+    found->second = value;
+}
+
 std::vector<Column> part_columns(const Column& label) {
     std::vector<Column> columns = {label, {"frame", "ms"}, {"median", "ms"}};
     for (int part = 0; part < k_parts; ++part) {
@@ -172,14 +180,12 @@ Plot part_plot(const std::string& title, const std::string& x_label,
     return plot;
 }
 
-size_t drawn_triangles(const BenchInputs& inputs) {
-    const scene::Pose pose =
-        scene::evaluate_pose(inputs.scene, scene::time_of_frame(inputs.scene.frames, inputs.frame()),
-                             scene::default_animation(inputs.scene));
+size_t drawn_triangles(const scene::Scene& scene, double frame) {
+    const scene::Pose pose = scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frame),
+                                                  scene::default_animation(scene));
     size_t triangles = 0;
     for (const scene::DrawInstance& draw : pose.draws) {
-        for (const scene::Primitive& primitive :
-             inputs.scene.meshes[static_cast<size_t>(draw.mesh)].primitives) {
+        for (const scene::Primitive& primitive : scene.meshes[static_cast<size_t>(draw.mesh)].primitives) {
             triangles += primitive.indices.size() / 3;
         }
     }

@@ -75,8 +75,11 @@ struct Experiment {
 [[nodiscard]] BenchReport run_experiment(const Experiment& experiment, const BenchInputs& inputs,
                                          const gl::DeviceInfo& device, const std::string& command);
 
-// "64 x 64 texels"-free names that the options use as well.
+// As the options name it.
 [[nodiscard]] std::string splat_name(Splat splat);
+
+// What an experiment does with a setting, where it is not what the user or the program's default says.
+void change_setting(BenchReport& report, std::string_view name, const std::string& value);
 
 // The times of one setting as a row, in the order of part_columns(): the label, frame best and median, parts.
 [[nodiscard]] std::vector<Column> part_columns(const Column& label);
@@ -85,8 +88,8 @@ struct Experiment {
 [[nodiscard]] Plot part_plot(const std::string& title, const std::string& x_label,
                              const std::vector<std::pair<std::string, MeasuredFrame>>& bars);
 
-// Triangles that a frame of the scene draws.
-[[nodiscard]] size_t drawn_triangles(const BenchInputs& inputs);
+// Triangles that a frame of the scene draws, instances counted.
+[[nodiscard]] size_t drawn_triangles(const scene::Scene& scene, double frame);
 
 inline constexpr std::string_view k_paper_machine =
     "Ritschel et al. 2008 (1.8 GHz CPU, NVIDIA GeForce 8800 GTX)";

@@ -98,7 +98,7 @@ MeasuredFrame FrameBench::measure(const Settings& settings, int repeat, Measure 
             fmt::format("{} has no bounced light in this frame: no light shines on a surface that reflects",
                         scene_.name));
     }
-    if (settings.visibility != Visibility::none && out.report.points_a_map == 0) {
+    if (settings.visibility == Visibility::ism && out.report.points_a_map == 0) {
         throw input_error(fmt::format(
             "{} has nothing that hides anything: its virtual point lights need no shadow maps", scene_.name));
     }

@@ -58,10 +58,11 @@ void measure_ism_error(const BenchInputs& inputs, BenchReport& report) {
     Settings base = inputs.settings();
     base.vpls = inputs.options.vpls.value_or(inputs.options.quick ? base.vpls / 4 : k_paper_vpls);
     base.show = Show::indirect;
-    for (auto& [name, value] : report.settings) {
-        if (name == "VPLs") value = std::to_string(base.vpls);
-        if (name == "map size" || name == "points a map") value = "varied";
-        if (name == "splat" && splats.size() > 1) value = "varied";
+    change_setting(report, "VPLs", std::to_string(base.vpls));
+    change_setting(report, "map size", "varied");
+    change_setting(report, "points a map", "varied");
+    if (splats.size() > 1) {
+        change_setting(report, "splat", "varied");
     }
 
     FrameBench bench = inputs.bench(inputs.scene);

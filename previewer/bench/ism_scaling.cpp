@@ -159,9 +159,7 @@ void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report) {
     BenchOptions fixed = inputs.options;
     fixed.points = usual.report.points_a_map;
     const BenchInputs with_points{inputs.scene, fixed, inputs.timing, inputs.interrupts};
-    for (auto& [name, value] : report.settings) {
-        if (name == "points a map") value = std::to_string(*fixed.points);
-    }
+    change_setting(report, "points a map", std::to_string(*fixed.points));
 
     Plot frames{.title = "Time of a frame",
                 .note = "One parameter varied at a time, in multiples of its first value.",

@@ -177,6 +177,32 @@ void gather_table(const BenchInputs& inputs, FrameBench& bench, Progress& progre
     report.tables.push_back(std::move(table));
 }
 
+// A bar for each pass, coloured by its part.
+Plot pass_plot(const MeasuredFrame& measured) {
+    Plot plot{.title = "Where a frame's time goes",
+              .note = "Median time of each pass, timed by itself.",
+              .kind = Plot::Kind::stacked,
+              .x_label = "",
+              .y_label = "milliseconds",
+              .x_log = false,
+              .y_log = false,
+              .series = {},
+              .bar_names = {}};
+    for (int part = 0; part < k_parts; ++part) {
+        Series series{part_name(static_cast<Part>(part)), {}};
+        for (size_t i = 0; i < measured.passes.size(); ++i) {
+            if (measured.passes[i].part == static_cast<Part>(part)) {
+                series.points.push_back({static_cast<double>(i), measured.passes[i].time.median()});
+            }
+        }
+        plot.series.push_back(std::move(series));
+    }
+    for (const MeasuredPass& pass : measured.passes) {
+        plot.bar_names.push_back(pass.name);
+    }
+    return plot;
+}
+
 void frame_table(const BenchInputs& inputs, FrameBench& bench, Progress& progress, BenchReport& report) {
     const MeasuredFrame measured = bench.measure(inputs.settings(), inputs.repeat());
     progress.step(fmt::format("frame: {:.1f} ms", measured.frame.best()));
@@ -203,8 +229,7 @@ void frame_table(const BenchInputs& inputs, FrameBench& bench, Progress& progres
     table.rows.push_back(
         {"neither splat nor gather", "", {}, whole - splat - gather, share(whole - splat - gather)});
     report.tables.push_back(std::move(table));
-    report.plots.push_back(
-        part_plot("Where a frame's time goes", "", {{"frame with the settings below", measured}}));
+    report.plots.push_back(pass_plot(measured));
     report.notes.push_back(
         fmt::format("A frame without per-pass timing takes {} ms (median {} ms). Of the timed one splats "
                     "take {} %, the gather {} "

@@ -33,10 +33,9 @@ void measure_screen_sizes(const BenchInputs& inputs, BenchReport& report) {
     const std::vector<int> blocks = {4, 8, 16};
     Settings settings = inputs.settings();
     settings.vpls = inputs.options.vpls.value_or(inputs.options.quick ? settings.vpls : k_paper_vpls);
-    for (auto& [name, value] : report.settings) {
-        if (name == "VPLs") value = std::to_string(settings.vpls);
-        if (name == "size" || name == "interleave") value = "varied";
-    }
+    change_setting(report, "VPLs", std::to_string(settings.vpls));
+    change_setting(report, "size", "varied");
+    change_setting(report, "interleave", "varied");
 
     FrameBench bench = inputs.bench(inputs.scene);
     Progress progress("bench ism-table1", static_cast<int>(sizes.size() * blocks.size()));

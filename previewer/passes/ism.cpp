@@ -6,10 +6,8 @@
 namespace bounce::passes {
 namespace {
 
-// The largest map that a group holds in 32 KiB of shared memory, with the pyramid of pull-push; and the largest whose
-// splats fit in beside both, so that one pass does all.
+// The largest map that a group holds in 32 KiB of shared memory, with the pyramid of pull-push.
 constexpr int k_largest_shared_map = 64;
-constexpr int k_largest_fused_map = 32;
 // Overlap of pull-push tiles: more than the reach of three levels and their interpolation.
 constexpr int k_border = 16;
 constexpr GLuint k_empty = 0x7bff0000U;  // ISM_EMPTY
@@ -131,7 +129,7 @@ TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const
 IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
                      const VplSet& set) {
     IsmAtlas out;
-    const bool fused = set.map_size <= k_largest_fused_map && inputs.pull_push.mode != PullPush::off;
+    const bool fused = fits_shared(set) && inputs.pull_push.mode != PullPush::off;
     graph.add_pass("ism squares", [&](PassBuilder& builder) {
         builder.read(inputs.scene.points);
         builder.read(set.vpls);

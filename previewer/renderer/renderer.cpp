@@ -195,7 +195,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     if (!bounces.empty()) {
         report.vpls = bounces.front().lights.maps;
     }
-    if (!bounces.empty() && plan.occluded) {
+    if (!bounces.empty() && plan.occluded && settings.visibility == Visibility::ism) {
         report.points_a_map = bounces.front().lights.points_a_map;
         report.large_triangles = points_->large_triangles();
     }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`bounce bench`: one experiment end to end, and what it refuses."""
 import json
+import re
 
 import pytest
 
@@ -49,6 +50,22 @@ def test_a_quick_experiment_end_to_end(bounce, tmp_path):
     # The same on the terminal.
     assert "Gather rate" in result.stdout and report["machine"]["cpu"] in result.stdout
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["index.html", "results.json"]
+
+
+def test_creation_of_maps(bounce, tmp_path):
+    """Classic maps come first, when nothing has made points yet; the ratio is of the times beside it."""
+    result = bounce("bench", "ism-creation", "-o", "out", "--triangles", "60000", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    table = report["tables"][0]
+    triangles = int(re.search(r"(\d+) triangles \(split from 49176", table["note"])[1])
+    assert 60000 <= triangles < 60100
+    classic, *imperfect = table["rows"]
+    assert classic[1].startswith("classic") and classic[2] is None and classic[5] is None
+    assert [row[2] for row in imperfect] == [64, 64, 64]
+    for size, maker, points, ms, median, ratio in imperfect:
+        assert size == 32
+        assert ratio == pytest.approx(classic[3] / ms)
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):
