@@ -34,9 +34,9 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
     return frame;
 }
 
-// Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would give to a
-// closed box around the scene becomes about a sixteenth. Ten binary digits are left for what is darker with all its
-// digits, and twenty for what is brighter. A power of two, so that it costs no digit itself.
+// Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would give
+// to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for what is
+// darker with all its digits, and of a million for what is brighter. A power of two costs no digit itself.
 float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
     const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
     const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
@@ -84,8 +84,8 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         const scene::Bounds& bounds = gpu_scene_.bounds();
         const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
         const double hull = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-        // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it spreads
-        // what stands before them.
+        // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it
+        // spreads what stands before them.
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
         const bool drop_hull = settings.drop_hull && !fills;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
