@@ -95,13 +95,13 @@ TEST_F(IsmGather, IsTheFullSumWhereNothingIsHidden) {
         const Difference fine = compare(draw(scene, floor_camera(), settings), reference);
         // The area light shines down: the wall, which alone lights the floor, has one light in twenty.
         const bool few = type == scene::LightType::area;
-        EXPECT_LT(std::abs(fine.mean), 0.015) << static_cast<int>(type);
+        EXPECT_LT(std::abs(fine.mean), few ? 0.04 : 0.015) << static_cast<int>(type);
         EXPECT_LT(fine.absolute, few ? 0.12 : 0.05) << static_cast<int>(type);
         settings = with(4, 256);
         settings.rsm_size = 128;
         const Difference coarse = compare(draw(scene, floor_camera(), settings), reference);
-        EXPECT_LT(std::abs(coarse.mean), few ? 0.3 : 0.06) << static_cast<int>(type);
-        EXPECT_LT(coarse.absolute, few ? 0.3 : 0.07) << static_cast<int>(type);
+        EXPECT_LT(std::abs(coarse.mean), few ? 0.3 : 0.08) << static_cast<int>(type);
+        EXPECT_LT(coarse.absolute, few ? 0.3 : 0.09) << static_cast<int>(type);
     }
 }
 
