@@ -63,7 +63,7 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& p
                 fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
         }
     }
-    if (settings.technique == Technique::rsm && plan.lights.empty()) {
+    if (settings.technique != Technique::direct && plan.lights.empty()) {
         plan.left_out.push_back({"rsm", "no light sends light"});
     }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,8 @@ namespace bounce {
 namespace {
 
 gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Scene& scene,
-                                  const scene::Pose& pose, const Settings& settings, int samples) {
+                                  const scene::Pose& pose, const Settings& settings, int samples,
+                                  float half_scale) {
     gpu::FrameUniforms frame{};
     frame.render_from_clip = glm::mat4(camera.render_from_clip);
     frame.camera_position = glm::vec4(glm::vec3(camera.position), camera.perspective ? 1.0F : 0.0F);
@@ -28,8 +30,21 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
     frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)),
                            settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
                            settings.interpolation_distance};
-    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, 1.0F};
+    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, half_scale};
     return frame;
+}
+
+// Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would give
+// to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for what is
+// darker with all its digits, and of a million for what is brighter. A power of two costs no digit itself.
+float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
+    const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
+    const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box;
+    if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
+        return 1.0F;
+    }
+    return static_cast<float>(std::exp2(std::clamp(-4.0 - std::round(std::log2(irradiance)), -120.0, 120.0)));
 }
 
 // Texels a side of an imperfect reflective shadow map: it decides where the next bounce's lights stand, not
@@ -79,8 +94,8 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         const scene::Bounds& bounds = gpu_scene_.bounds();
         const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
         const double hull = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-        // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it spreads
-        // what stands before them.
+        // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it
+        // spreads what stands before them.
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
         const bool drop_hull = settings.drop_hull && !fills;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
@@ -151,10 +166,6 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     uniforms_.clear();
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
                                                   settings.width, settings.height, gpu_scene_.space());
-    const auto frame_slot = [&](int samples) {
-        return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples));
-    };
-    const gpu::UniformArena::Slot frame = frame_slot(0);
     const auto view_slot = [&](const glm::mat4& clip_from_render) {
         return uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)});
     };
@@ -182,6 +193,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         fluxes.push_back(setup.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
+    const float scale = half_scale(fluxes, gpu_scene_.bounds());
+    const auto frame_slot = [&](int samples) {
+        return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples, scale));
+    };
+    const gpu::UniformArena::Slot frame = frame_slot(0);
 
     const std::vector<int> samples = share_samples(fluxes, settings.rsm_samples);
     std::vector<gpu::UniformArena::Slot> gather_frames;

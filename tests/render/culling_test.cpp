@@ -3,7 +3,7 @@
 // What a frame runs, scene by scene: passes that a scene does not need are not there.
 #include <algorithm>
 
-#include "render_fixture.h"
+#include "ism_fixture.h"
 
 namespace bounce::test {
 namespace {
@@ -95,6 +95,119 @@ TEST_F(ExecutedPasses, BlackSurfacesBounceNothing) {
     add_mesh_node(scene, add_square(scene, 4.0F, add_diffuse(scene, glm::vec3(0.0F))), glm::dmat4(1.0));
     add_light(scene, spot(), glm::dmat4(1.0));
     EXPECT_EQ(run(scene, {}), (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "composite"}));
+}
+
+// A floor, a wall and something that stands between them.
+scene::Scene occluded_scene() {
+    scene::Scene scene = corner_scene();
+    add_wall_spot(scene);
+    scene.lights[0].name = "Spot";
+    add_mesh_node(scene, add_ball(scene, add_diffuse(scene), 0.25F), moved({-1.0, 0.0, 0.75}));
+    return scene;
+}
+
+TEST_F(ExecutedPasses, ImperfectShadowMaps) {
+    EXPECT_EQ(run(occluded_scene(), {}),
+              (Passes{"gbuffer", "shadow map: Spot", "direct light: Spot", "rsm: Spot", "points",
+                      "vpl importance", "vpls", "ism disks", "vpl gather", "near tiles", "near field",
+                      "blur, horizontal", "blur, vertical", "composite"}));
+}
+
+TEST_F(ExecutedPasses, OpenScenesHaveNoShadowMapsOfVpls) {
+    // All is on the hull: nothing stands between.
+    scene::Scene scene = corner_scene();
+    add_wall_spot(scene);
+    scene.lights[0].name = "Spot";
+    Settings settings;
+    settings.show = Show::indirect;
+    const Passes open = run(scene, settings);
+    EXPECT_EQ(open, (Passes{"gbuffer", "rsm: Spot", "vpl importance", "vpls", "vpl gather", "near tiles",
+                            "near field", "blur, horizontal", "blur, vertical", "composite"}));
+    settings.visibility = Visibility::none;
+    EXPECT_EQ(run(occluded_scene(), settings), open) << "as without visibility";
+}
+
+TEST_F(ExecutedPasses, WhatIsSwitchedOffIsNotThere) {
+    Settings settings;
+    settings.show = Show::indirect;
+    settings.interleave = 1;
+    settings.near_field = false;
+    EXPECT_EQ(run(occluded_scene(), settings), (Passes{"gbuffer", "rsm: Spot", "points", "vpl importance",
+                                                       "vpls", "ism disks", "vpl gather", "composite"}));
+}
+
+TEST_F(ExecutedPasses, SplatsOfEachKind) {
+    Settings settings;
+    settings.show = Show::indirect;
+    settings.interleave = 1;
+    settings.near_field = false;
+    const auto with = [&](Splat splat, int size, PullPush pull_push) {
+        settings.splat = splat;
+        settings.ism_size = size;
+        settings.pull_push = pull_push;
+        Passes passes = run(occluded_scene(), settings);
+        passes.erase(std::remove_if(passes.begin(), passes.end(),
+                                    [](const std::string& name) { return name.rfind("ism", 0) != 0; }),
+                     passes.end());
+        return passes;
+    };
+    EXPECT_EQ(with(Splat::compute, 64, PullPush::fill), (Passes{"ism squares"}))
+        << "holes are filled in the same pass";
+    EXPECT_EQ(with(Splat::compute, 128, PullPush::fill), (Passes{"ism squares", "ism pull-push"}));
+    EXPECT_EQ(with(Splat::compute, 128, PullPush::off), (Passes{"ism squares"}));
+    EXPECT_EQ(with(Splat::points, 64, PullPush::fill), (Passes{"ism points", "ism pull-push"}));
+    EXPECT_EQ(with(Splat::disks, 128, PullPush::fill), (Passes{"ism disks"}));
+    settings.drop_hull = false;
+    EXPECT_EQ(with(Splat::disks, 64, PullPush::fill), (Passes{"ism triangles", "ism disks"}));
+}
+
+TEST_F(ExecutedPasses, FurtherBounces) {
+    Settings settings;
+    settings.show = Show::indirect;
+    settings.bounces = 3;
+    settings.interleave = 1;
+    settings.near_field = false;
+    const Passes by_points = {"gbuffer",
+                              "rsm: Spot",
+                              "points",
+                              "vpl importance",
+                              "vpls",
+                              "ism disks",
+                              "vpl importance, next bounce",
+                              "vpls, next bounce",
+                              "vpl spacing",
+                              "ism disks",
+                              "vpl importance, next bounce",
+                              "vpls, next bounce",
+                              "vpl spacing",
+                              "ism disks",
+                              "vpl gather",
+                              "composite"};
+    EXPECT_EQ(run(occluded_scene(), settings), by_points);
+    settings.splat_irsms = true;
+    const Passes splatted = run(occluded_scene(), settings);
+    EXPECT_EQ(std::count(splatted.begin(), splatted.end(), "irsm"), 2);
+}
+
+TEST_F(ExecutedPasses, PointsAreMovedOnlyWhereSomethingMoved) {
+    const scene::Scene scene = occluded_scene();
+    Renderer renderer(scene);
+    Settings settings;
+    settings.width = settings.height = 32;
+    const auto moves = [&](const scene::Pose& pose) {
+        const Passes passes = renderer.render(pose, camera_from_above(4.0, 10.0), settings).executed;
+        return std::count(passes.begin(), passes.end(), "points") == 1;
+    };
+    scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+    EXPECT_TRUE(moves(pose));
+    EXPECT_FALSE(moves(pose));
+    pose.lights[0].power_w *= 2.0F;
+    EXPECT_FALSE(moves(pose)) << "a light moves no surface";
+    const auto ball = static_cast<size_t>(pose.draws.back().node);
+    pose.world_from_node[ball][3].y += 0.2;
+    pose.draws.back().world_from_model[3].y += 0.2;
+    EXPECT_TRUE(moves(pose));
+    EXPECT_FALSE(moves(pose));
 }
 
 TEST_F(ExecutedPasses, OmissionChangesNothing) {

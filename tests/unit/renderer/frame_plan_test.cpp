@@ -71,7 +71,10 @@ TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
     const FramePlan p = plan();
     EXPECT_TRUE(p.direct);
     EXPECT_TRUE(p.indirect);
-    EXPECT_TRUE(p.interpolate);
+    EXPECT_TRUE(p.vpls);
+    EXPECT_TRUE(p.occluded);
+    EXPECT_EQ(p.bounces, 1);
+    EXPECT_FALSE(p.interpolate) << "that is for light gathered from reflective shadow maps";
     EXPECT_EQ(p.lights, std::vector<int>{0});
     EXPECT_EQ(p.shadows, std::vector<bool>{true});
     EXPECT_EQ(reason(p, "rsm"), "");
@@ -79,11 +82,38 @@ TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
     EXPECT_TRUE(p.approximations.empty());
 }
 
+TEST_F(FramePlanTest, TheReflectiveShadowMapAloneIsInterpolated) {
+    settings_.technique = Technique::rsm;
+    settings_.bounces = 3;
+    const FramePlan p = plan();
+    EXPECT_TRUE(p.indirect);
+    EXPECT_TRUE(p.interpolate);
+    EXPECT_FALSE(p.vpls);
+    EXPECT_FALSE(p.occluded);
+    EXPECT_FALSE(p.near_field);
+    EXPECT_EQ(p.bounces, 0) << "of virtual point lights";
+    EXPECT_EQ(reason(p, "rsm interpolate"), "");
+}
+
+TEST_F(FramePlanTest, WhatVirtualPointLightsAreAskedFor) {
+    settings_.visibility = Visibility::none;
+    settings_.near_field = false;
+    settings_.glossy_bounces = false;
+    settings_.bounces = 4;
+    const FramePlan p = plan();
+    EXPECT_TRUE(p.vpls);
+    EXPECT_FALSE(p.occluded);
+    EXPECT_FALSE(p.near_field);
+    EXPECT_FALSE(p.glossy);
+    EXPECT_EQ(p.bounces, 4);
+}
+
 TEST_F(FramePlanTest, DirectTechniqueLeavesTheBounceOutAsAskedFor) {
     settings_.technique = Technique::direct;
     const FramePlan p = plan();
     EXPECT_TRUE(p.direct);
     EXPECT_FALSE(p.indirect);
+    EXPECT_FALSE(p.vpls);
     EXPECT_FALSE(p.interpolate);
     EXPECT_THAT(reason(p, "rsm"), HasSubstr("asked for"));
 }
@@ -124,7 +154,11 @@ TEST_F(FramePlanTest, WithoutLightThereIsNothingToBounce) {
     EXPECT_FALSE(p.direct);
     EXPECT_FALSE(p.indirect);
     EXPECT_FALSE(p.interpolate);
+    EXPECT_FALSE(p.vpls);
+    EXPECT_EQ(p.bounces, 0);
     EXPECT_THAT(reason(p, "rsm"), HasSubstr("no light"));
+    settings_.technique = Technique::rsm;
+    EXPECT_THAT(reason(plan(), "rsm"), HasSubstr("no light"));
 }
 
 TEST_F(FramePlanTest, ALightThatCastsNoShadowHasNoMap) {
@@ -164,6 +198,7 @@ TEST_F(FramePlanTest, AMetallicTextureMayLeaveDiffuseParts) {
 TEST_F(FramePlanTest, InterpolationIsOffWhereEveryPixelIsAskedFor) {
     const auto is_off = [&](const Settings& settings) {
         settings_ = settings;
+        settings_.technique = Technique::rsm;
         const FramePlan p = plan();
         EXPECT_TRUE(p.indirect);
         EXPECT_FALSE(p.interpolate);
