@@ -43,6 +43,7 @@ ExitCode run_evaluate(EvaluateArguments arguments) {
     }
     std::tie(options.width, options.height) = parse_size(arguments.size);
     options.bounce = executable_path();
+    options.runs = default_preview_runs(options.bounces);
     options.command = this_command();
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");
@@ -73,7 +74,9 @@ void add_evaluate(CLI::App& app, Run& run) {
         ->delimiter(',')
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    command->add_option("--bounces", options.bounces, "Diffuse bounces that Cycles renders")
+    command
+        ->add_option("--bounces", options.bounces,
+                     "Diffuse bounces that Cycles renders; Bounce renders as many, up to 4")
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command->add_option("--repeat", options.repeat, "Renders of each frame by Bounce; their median counts")

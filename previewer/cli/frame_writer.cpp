@@ -13,11 +13,9 @@ void FrameWriter::write(const std::filesystem::path& path, const Image& image,
     const ImageAttributes attributes = {
         {"Software", "bounce"}, {"bounce:scene", scene_.name}, {"bounce:frame", std::to_string(frame)}};
     // Debug layers are data to look at, not light: they go out without the scene's look.
-    const bool light =
-        settings_.show == Show::shaded || settings_.show == Show::direct || settings_.show == Show::indirect;
     if (is_scene_linear(path)) {
         write_image(path, image, attributes);
-    } else if (light) {
+    } else if (shows_light(settings_.show)) {
         write_image(path,
                     to_display(image, {view.display_device, view.view_transform, view.look, view.exposure,
                                        view.gamma}),

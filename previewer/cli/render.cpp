@@ -28,6 +28,7 @@ struct Arguments {
     std::string stats;
     int repeat = 1;
     bool pass_times = true;
+    bool removed = false;
     SceneSourceOptions source;
     RenderOptions render;
 };
@@ -78,18 +79,29 @@ FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const Came
         // time.
         Settings counting = settings;
         counting.count_gathered_pixels = true;
+        counting.measure_removed = arguments.removed;
         stats.report = once(device.software ? gl::TimingMode::finish : gl::TimingMode::query, counting).first;
     }
     return stats;
 }
 
 ExitCode render(const Arguments& arguments) {
+    arguments.render.check();
+    if (arguments.removed && (arguments.stats.empty() || !arguments.pass_times)) {
+        throw usage_error(
+            "--measure-removed writes to --stats, with pass times: give --stats and no --no-pass-times");
+    }
     const scene::LoadResult loaded = load_scene(arguments.scene, arguments.source);
     for (const std::string& warning : loaded.warnings) {
         log::warning("{}", warning);
     }
     const scene::Scene& scene = loaded.scene;
-    const Settings settings = arguments.render.settings(scene);
+    Settings settings = arguments.render.settings(scene);
+    settings.find_unlit = true;
+    if (arguments.removed && settings.technique != Technique::ism) {
+        throw usage_error(
+            "--measure-removed needs --technique ism: only kernels of virtual point lights are bounded");
+    }
     const int animation = arguments.render.animation_index(scene);
     const std::vector<int> frames = choose_frames(arguments, scene);
     for (const std::string& output : arguments.outputs) {
@@ -102,9 +114,10 @@ ExitCode render(const Arguments& arguments) {
     const gl::HeadlessContext context;
     const gl::DeviceInfo device = gl::initialise_current_context();
     log::debug("OpenGL {} on {}", device.version, device.renderer);
+    require_within(device.limits, settings);
     Renderer renderer(scene);
     const FrameWriter writer(scene, settings);
-    StatsFile stats(arguments.scene, device, settings, arguments.render);
+    StatsFile stats(arguments.scene, device, settings);
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
     int written = 0;
@@ -125,6 +138,9 @@ ExitCode render(const Arguments& arguments) {
         ++written;
         progress.step(fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
         if (frame == frames.front()) {
+            for (const std::string& note : measured.report.notes) {
+                log::info("note: {}", note);
+            }
             for (const std::string& approximation : measured.report.approximations) {
                 log::info("note: {}", approximation);
             }
@@ -159,6 +175,9 @@ void add_render(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, 10000));
     command->add_flag("!--no-pass-times", arguments->pass_times,
                       "With --stats: do not time the passes one by one");
+    command->add_flag(
+        "--measure-removed", arguments->removed,
+        "With --stats: also how much of the indirect light bounding the lights' kernels takes away");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     command->callback([arguments, &run] { run = [arguments] { return render(*arguments); }; });

@@ -4,66 +4,217 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "cli/frame_list.h"
+#include "cli/option_conflicts.h"
 #include "core/error.h"
+#include "renderer/presets.h"
+#include "renderer/setting_names.h"
+#include "renderer/settings_check.h"
 #include "scene/pose.h"
+#include "scene/scene_features.h"
 
 namespace bounce::cli {
 namespace {
 
-const std::map<std::string, Technique> k_techniques = {
-    {"direct", Technique::direct}, {"rsm", Technique::rsm}, {"ism", Technique::ism}};
-
-const std::map<std::string, Visibility> k_visibilities = {
-    {"none", Visibility::none}, {"ism", Visibility::ism}, {"shadow-maps", Visibility::shadow_maps}};
-
-const std::map<std::string, Splat> k_splats = {
-    {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
-
-const std::map<std::string, PullPush> k_pull_push = {
-    {"off", PullPush::off}, {"fill", PullPush::fill}, {"paper", PullPush::paper}};
-
-const std::map<std::string, passes::RsmPattern> k_patterns = {
-    {"inverse-square", passes::RsmPattern::inverse_square},
-    {"uniform-radius", passes::RsmPattern::uniform_radius},
-    {"paper-literal", passes::RsmPattern::paper_literal}};
-
-const std::map<std::string, Show> k_shows = {{"shaded", Show::shaded},
-                                             {"direct", Show::direct},
-                                             {"indirect", Show::indirect},
-                                             {"rsm-depth", Show::rsm_depth},
-                                             {"rsm-position", Show::rsm_position},
-                                             {"rsm-normal", Show::rsm_normal},
-                                             {"rsm-flux", Show::rsm_flux},
-                                             {"interpolation", Show::interpolation}};
-
-template <typename T>
-CLI::IsMember one_of(const std::map<std::string, T>& names) {
-    return CLI::IsMember(&names);
+const std::map<std::string, Preset>& presets() {
+    static const std::map<std::string, Preset> names = {
+        {"auto", Preset::automatic}, {"rsm2005", Preset::rsm2005}, {"ism2008", Preset::ism2008}};
+    return names;
 }
 
-// The rsm- layers show one light's map: there must be such a light, and maps at all.
-void require_shown_map(const RenderOptions& options, const Settings& settings, const scene::Scene& scene) {
-    if (!options.show.starts_with("rsm-")) {
-        return;
+// splat_irsms and drop_hull by name.
+const std::map<std::string, bool> k_bounce_sources = {{"points", false}, {"irsm", true}};
+const std::map<std::string, bool> k_hulls = {{"drop", true}, {"splat", false}};
+
+// Options that take one of a few names, or on and off, in a group of the help.
+class Group {
+  public:
+    Group(CLI::App& command, std::string name) : command_(command), name_(std::move(name)) {}
+
+    template <typename T>
+    CLI::Option* number(const char* option, T& value, const std::string& text, const std::string& standard) {
+        return command_.add_option(option, value, text)->default_str(standard)->group(name_);
     }
-    if (settings.technique != Technique::rsm) {
-        throw usage_error(fmt::format("--show {} needs --technique rsm", options.show));
+    template <typename T>
+    void one_of(const char* option, std::optional<std::string>& value, const std::map<std::string, T>& names,
+                const std::string& text, const std::string& standard) {
+        number(option, value, text, standard)->check(CLI::IsMember(&names));
+    }
+    void on_off(const char* option, std::optional<bool>& value, const std::string& text,
+                const std::string& standard = "on") {
+        number(option, value, text, standard)->type_name("TEXT")->check(CLI::IsMember({"off", "on"}));
+    }
+
+  private:
+    CLI::App& command_;
+    std::string name_;
+};
+
+void add_rsm_options(CLI::App& command, RenderOptions& o) {
+    const Settings d;
+    Group group(command, "Reflective shadow maps");
+    group.number("--rsm-size", o.rsm_size,
+                 "Side of a reflective shadow map in texels, half of it for a cube's faces; or auto: 512 for "
+                 "technique rsm, 256 for ism",
+                 "auto");
+    group.number("--rsm-samples", o.samples,
+                 "Technique rsm: pixel lights gathered at a pixel, over all lights; or all, for every texel",
+                 std::to_string(d.rsm_samples));
+    group.one_of("--rsm-pattern", o.pattern, setting_names<passes::RsmPattern>(),
+                 "Technique rsm: how the gather's samples are spread", name_of(d.rsm_pattern));
+    group.on_off(
+        "--rsm-interpolation", o.interpolate,
+        "Technique rsm: the gather is done at low resolution and interpolated where the surface allows it");
+    group.number("--rsm-lowres", o.lowres,
+                 "Technique rsm: the low-resolution gather takes one pixel in N x N, 2 to 64",
+                 std::to_string(d.lowres_step));
+}
+
+void add_vpl_options(CLI::App& command, RenderOptions& o) {
+    const Settings d;
+    Group group(command, "Virtual point lights (technique ism)");
+    group.number("--vpls", o.vpls,
+                 fmt::format("Virtual point lights of the first bounce, 1 to {}; rounded up to whole "
+                             "interleaved blocks",
+                             k_most_vpls),
+                 std::to_string(d.vpls));
+    group.number("--bounces", o.bounces, "Bounces of light, 1 to 4", std::to_string(d.bounces));
+    group.number("--bounce-vpls", o.bounce_vpls,
+                 fmt::format("Virtual point lights of each further bounce, 1 to {}", k_most_vpls),
+                 std::to_string(d.bounce_vpls));
+    group.one_of("--bounce-source", o.bounce_source, k_bounce_sources,
+                 "What lights of further bounces are drawn from: points that the bounce before lights, or "
+                 "these points "
+                 "splatted into imperfect reflective shadow maps, as in the 2008 paper",
+                 "points");
+    group.number(
+        "--interleave", o.interleave,
+        "1, 2, 4, 8 or 16: of N x N neighbouring pixels each gathers from another part of the lights",
+        std::to_string(d.interleave));
+    group.on_off("--near-field", o.near_field,
+                 "Light from surfaces nearer than a virtual point light can stand for is gathered from the "
+                 "reflective shadow maps");
+    group.on_off("--glossy", o.glossy, "Glossy lobes of virtual point lights and of what they light");
+}
+
+void add_ism_options(CLI::App& command, RenderOptions& o) {
+    const Settings d;
+    Group group(command, "Shadow maps of virtual point lights (technique ism)");
+    group.one_of("--visibility", o.visibility, setting_names<Visibility>(),
+                 "What hides them: nothing, imperfect shadow maps of points, or maps drawn from triangles "
+                 "(the reference; slow)",
+                 name_of(d.visibility));
+    group.number("--ism-size", o.ism_size, "Side of each map in texels: 32, 64, 128 or 256",
+                 std::to_string(d.ism_size));
+    group.number("--points", o.points,
+                 fmt::format("Points splatted into each map, 1 to {}; or auto: by the maps' size and the "
+                             "scene's depth complexity",
+                             k_most_points_a_map),
+                 "auto");
+    group.one_of(
+        "--splat", o.splat, setting_names<Splat>(),
+        "How: oriented disks with the plane's depth at each texel; squares of one depth in a compute "
+        "shader; the same as GL_POINTS, as in the 2008 paper",
+        name_of(d.splat));
+    group.on_off("--large-triangles", o.large_triangles,
+                 "With disks, triangles that would take many points are drawn as triangles");
+    group.one_of("--hull", o.hull, k_hulls,
+                 "Surfaces on the scene's convex hull, which hide nothing from anything: drop or splat them",
+                 "drop");
+    group.one_of(
+        "--pull-push", o.pull_push, setting_names<PullPush>(),
+        "After squares: leave holes, fill them, or also replace what lies far behind what fills them, "
+        "as in the 2008 paper",
+        name_of(d.pull_push));
+    group.number("--pull-push-levels", o.pull_push_levels, "Levels of its pyramid, 1 to 3",
+                 std::to_string(d.pull_push_levels));
+    group.number("--pull-threshold", o.pull_threshold,
+                 "Depths that differ by less are averaged, as a part of the scene's extent, 0 to 1",
+                 fmt::format("{:g}", d.pull_threshold));
+    group.number("--push-threshold", o.push_threshold,
+                 "Pull-push paper: depths that lie farther behind are replaced, as a part of the scene's "
+                 "extent, 0 to 1",
+                 fmt::format("{:g}", d.push_threshold));
+}
+
+void add_layer_options(CLI::App& command, RenderOptions& o) {
+    Group group(command, "What the picture shows");
+    group.one_of(
+        "--show,--layer", o.show, setting_names<Show>(),
+        "The picture, a part of its light, or what is inside: rsm- a light's reflective shadow map; vpls the "
+        "virtual point lights; ism their shadow maps, ism-splats before pull-push; vpl-visibility what one "
+        "of "
+        "them lights and what its map hides; unblurred indirect light before the blur; removed what bounding "
+        "the lights' kernels takes away; interpolation where technique rsm gathered in full",
+        "shaded");
+    group.number("--light", o.light, "Whose map the rsm- layers show, counted from 0", "0")
+        ->check(CLI::Range(0, 100000));
+    group.number("--vpl", o.vpl,
+                 "Whose map the layers ism, ism-splats and vpl-visibility show, counted from 0",
+                 "all, the first");
+    group.number("--bounce", o.bounce, "Of which bounce the lights are that a layer shows, counted from 1",
+                 "all, the first");
+}
+
+// A number, or `word`, which gives nothing.
+std::optional<int> number_or(const std::string& text, const char* word, const char* option) {
+    if (text == word) {
+        return std::nullopt;
+    }
+    int value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) {
+        throw usage_error(fmt::format("{} is '{}'; give a number, or {}", option, text, word));
+    }
+    return value;
+}
+
+// Like number_or, but 0 stands for `word` in the settings and so is no number to give.
+int number_or_zero(const std::string& text, const char* word, const char* option) {
+    const std::optional<int> value = number_or(text, word, option);
+    if (value == 0) {
+        throw usage_error(fmt::format("{} is 0; give a number from 1, or {}", option, word));
+    }
+    return value.value_or(0);
+}
+
+template <typename T, typename U>
+void set(const std::optional<T>& given, U& setting) {
+    if (given) {
+        setting = *given;
+    }
+}
+
+template <typename T>
+void set(const std::optional<std::string>& given, const std::map<std::string, T>& names, T& setting) {
+    if (given) {
+        setting = names.at(*given);
+    }
+}
+
+// The rsm- layers show one light's map: there must be such a light.
+void require_shown_light(const Settings& settings, const scene::Scene& scene) {
+    if (!shows_rsm(settings.show)) {
+        return;
     }
     const auto lights = std::count_if(
         scene.topological_order.begin(), scene.topological_order.end(),
         [&](int node) { return scene.nodes[static_cast<size_t>(node)].light != scene::k_none; });
-    if (options.light >= lights) {
-        throw usage_error(fmt::format("--light is {}; {} has {} lights, counted from 0", options.light,
+    if (settings.shown_light >= lights) {
+        throw usage_error(fmt::format("--light is {}; {} has {} lights, counted from 0", settings.shown_light,
                                       scene.name, lights));
     }
 }
 
-// One dispatch gathers them all; llvmpipe ends a loop after 65,535 iterations.
-constexpr int k_most_samples = 1 << 15;
+void throw_if_refused(const std::string& refusal) {
+    if (!refusal.empty()) {
+        throw usage_error(refusal);
+    }
+}
 
 }  // namespace
 
@@ -72,101 +223,102 @@ void RenderOptions::add_to(CLI::App& command) {
                        "Width and height in pixels, such as 640x360; the scene's own by default");
     command.add_option("--camera", camera, "Camera node by name; the scene's active camera by default");
     command.add_option("--animation", animation, "Animation clip by name");
-    command
-        .add_option("--technique", technique,
-                    "Light transport: direct, or rsm for one bounce by reflective shadow maps")
-        ->check(one_of(k_techniques))
-        ->capture_default_str();
-    command
-        .add_option("--rsm-samples", samples,
-                    "Pixel lights gathered at a pixel, over all lights; or all, for every texel")
-        ->capture_default_str();
-    command.add_option("--rsm-pattern", pattern, "How the gather's samples are spread")
-        ->check(one_of(k_patterns))
-        ->capture_default_str();
-    command
-        .add_option("--rsm-interpolation", interpolate,
-                    "on or off: gather at low resolution and interpolate where the surface allows it")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
-    command.add_option("--rsm-lowres", lowres, "The low-resolution gather takes one pixel in N x N")
-        ->check(CLI::Range(2, 64))
-        ->capture_default_str();
-    command
-        .add_option("--rsm-size", rsm_size,
-                    "Side of a reflective shadow map in texels; half of it for a cube's faces")
-        ->capture_default_str();
-    command.add_option("--vpls", vpls, "Virtual point lights");
-    command.add_option("--visibility", visibility, "How virtual point lights are occluded")
-        ->check(one_of(k_visibilities));
-    command.add_option("--ism-size", ism_size, "Side of an imperfect shadow map in texels");
-    command.add_option("--points", points, "Points splatted into each imperfect shadow map");
-    command.add_option("--near-field", near_field, "on or off")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
-    command.add_option("--glossy-bounces", glossy_bounces, "on or off")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
-    command.add_option("--bounces", bounces, "bounces");
-    command.add_option("--bounce-vpls", bounce_vpls, "of each further bounce");
-    command.add_option("--splat", splat, "splat")->check(one_of(k_splats));
-    command.add_option("--pull-push", pull_push, "pull push")->check(one_of(k_pull_push));
-    command.add_flag("!--no-large-triangles", large_triangles, "");
-    command.add_flag("--splat-irsms", splat_irsms, "");
-    command.add_flag("!--keep-hull", drop_hull, "");
-    command.add_option("--interleave", interleave, "n x n");
-    command
-        .add_option("--shadow-size", shadow_size,
-                    "Side of a shadow map in texels; half of it for a cube's faces")
-        ->check(CLI::Range(2, 16384))
-        ->capture_default_str();
-    command.add_option("--antialias", antialias, "on or off: smooth outlines as Cycles' pixel filter does")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
-    command.add_option("--show", show, "What the picture shows")
-        ->check(one_of(k_shows))
-        ->capture_default_str();
-    command.add_option("--light", light, "Which light's map the rsm- layers show, from 0")
-        ->check(CLI::Range(0, 100000));
+    Group group(command, "Light transport");
+    group.one_of(
+        "--technique", technique, setting_names<Technique>(),
+        "direct light only; rsm: one bounce gathered from reflective shadow maps, which nothing hides; ism: "
+        "bounces by virtual point lights with imperfect shadow maps",
+        name_of(Settings{}.technique));
+    group.one_of("--preset", preset, presets(),
+                 "Settings that belong together, from which single options may differ: auto is ours, the "
+                 "others are as "
+                 "in the papers on reflective and imperfect shadow maps",
+                 "auto");
+    group.number("--shadow-size", shadow_size,
+                 "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
+                 std::to_string(Settings{}.shadow_size));
+    group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
+    add_vpl_options(command, *this);
+    add_ism_options(command, *this);
+    add_rsm_options(command, *this);
+    add_layer_options(command, *this);
+}
+
+Settings RenderOptions::settings_without_scene() const {
+    Settings out = preset_settings(preset ? presets().at(*preset) : Preset::automatic);
+    set(technique, setting_names<Technique>(), out.technique);
+    set(pattern, setting_names<passes::RsmPattern>(), out.rsm_pattern);
+    set(interpolate, out.interpolate);
+    set(lowres, out.lowres_step);
+    set(vpls, out.vpls);
+    set(bounces, out.bounces);
+    set(bounce_vpls, out.bounce_vpls);
+    set(bounce_source, k_bounce_sources, out.splat_irsms);
+    set(interleave, out.interleave);
+    set(near_field, out.near_field);
+    set(glossy, out.glossy_bounces);
+    set(visibility, setting_names<Visibility>(), out.visibility);
+    set(ism_size, out.ism_size);
+    set(splat, setting_names<Splat>(), out.splat);
+    set(large_triangles, out.large_triangles);
+    set(hull, k_hulls, out.drop_hull);
+    set(pull_push, setting_names<PullPush>(), out.pull_push);
+    set(pull_push_levels, out.pull_push_levels);
+    set(pull_threshold, out.pull_threshold);
+    set(push_threshold, out.push_threshold);
+    set(antialias, out.antialias);
+    set(shadow_size, out.shadow_size);
+    set(show, setting_names<Show>(), out.show);
+    set(light, out.shown_light);
+    set(vpl, out.shown_vpl);
+    set(bounce, out.shown_bounce);
+    if (vpl && *vpl < 0) {
+        throw usage_error(fmt::format("--vpl is {}; lights are counted from 0", *vpl));
+    }
+    if (bounce && *bounce < 1) {
+        throw usage_error(fmt::format("--bounce is {}; bounces are counted from 1", *bounce));
+    }
+    if (rsm_size) {
+        out.rsm_size = number_or_zero(*rsm_size, "auto", "--rsm-size");
+    }
+    if (points) {
+        out.ism_points = number_or_zero(*points, "auto", "--points");
+    }
+    if (samples) {
+        const std::optional<int> count = number_or(*samples, "all", "--rsm-samples");
+        out.rsm_full_sum = !count.has_value();
+        out.rsm_samples = count.value_or(out.rsm_samples);
+    }
+    return out;
+}
+
+void RenderOptions::check() const {
+    const Settings out = settings_without_scene();
+    if (!size.empty()) {
+        (void)parse_size(size);
+    }
+    throw_if_refused(settings_refusal(out));
+    throw_if_refused(option_conflict(*this, out));
+    if (const std::string refusal = layer_refusal(out); !refusal.empty()) {
+        throw usage_error(fmt::format("--show {}: {}", name_of(out.show), refusal));
+    }
 }
 
 Settings RenderOptions::settings(const scene::Scene& scene) const {
-    Settings out;
+    Settings out = settings_without_scene();
     out.width = scene.render.width;
     out.height = scene.render.height;
     if (!size.empty()) {
         std::tie(out.width, out.height) = parse_size(size);
     }
-    out.technique = k_techniques.at(technique);
-    out.rsm_pattern = k_patterns.at(pattern);
-    out.show = k_shows.at(show);
-    out.shown_light = light;
-    out.interpolate = interpolate;
-    out.lowres_step = lowres;
-    out.rsm_size = rsm_size;
-    out.vpls = vpls;
-    out.visibility = k_visibilities.at(visibility);
-    out.ism_size = ism_size;
-    out.ism_points = points;
-    out.interleave = interleave;
-    out.near_field = near_field;
-    out.bounces = bounces;
-    out.bounce_vpls = bounce_vpls;
-    out.splat = k_splats.at(splat);
-    out.pull_push = k_pull_push.at(pull_push);
-    out.large_triangles = large_triangles;
-    out.drop_hull = drop_hull;
-    out.splat_irsms = splat_irsms;
-    out.glossy_bounces = glossy_bounces;
-    out.antialias = antialias;
-    out.shadow_size = shadow_size;
-    require_shown_map(*this, out, scene);
-    if (samples == "all") {
-        out.rsm_full_sum = true;
-        return out;
-    }
-    const auto [end, code] =
-        std::from_chars(samples.data(), samples.data() + samples.size(), out.rsm_samples);
-    if (code != std::errc() || end != samples.data() + samples.size() || out.rsm_samples < 1 ||
-        out.rsm_samples > k_most_samples) {
-        throw usage_error(fmt::format("--rsm-samples is '{}'; give a number from 1 to {}, or all", samples,
-                                      k_most_samples));
+    require_shown_light(out, scene);
+    if (out.technique == Technique::ism && out.bounces > 1) {
+        const scene::SceneFeatures features = scene::scene_features(scene);
+        if (features.triangles > 0 && !features.reflects) {
+            throw usage_error(fmt::format(
+                "--bounces is {}, but no surface of {} reflects light: every base colour is black",
+                out.bounces, scene.name));
+        }
     }
     return out;
 }
@@ -182,6 +334,10 @@ int RenderOptions::animation_index(const scene::Scene& scene) const {
             fmt::format("{} has no animation named {}; bounce info lists them", scene.name, animation));
     }
     return static_cast<int>(found - scene.animations.begin());
+}
+
+void require_within(const gl::DeviceLimits& limits, const Settings& settings) {
+    throw_if_refused(limits_refusal(settings, limits));
 }
 
 }  // namespace bounce::cli

@@ -6,47 +6,71 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gl/context.h"
 #include "renderer/settings.h"
 #include "scene/scene.h"
 
 namespace bounce::cli {
 
-// Options that choose what the renderer does, shared by render and view.
+// Options that choose what the renderer does, shared by render and view. An empty one was not given: the
+// preset decides.
 struct RenderOptions {
     std::string size;
     std::string camera;
     std::string animation;
-    std::string technique = "rsm";
-    std::string samples = "224";
-    std::string pattern = "uniform-radius";
-    std::string show = "shaded";
-    bool interpolate = true;
-    int lowres = 4;
-    int rsm_size = 0;
-    int vpls = 256;
-    std::string visibility = "ism";
-    int ism_size = 64;
-    int points = 0;
-    int interleave = 4;
-    bool near_field = true;
-    int bounces = 1;
-    int bounce_vpls = 128;
-    std::string splat = "disks";
-    std::string pull_push = "fill";
-    bool large_triangles = true;
-    bool drop_hull = true;
-    bool splat_irsms = false;
-    bool glossy_bounces = true;
-    bool antialias = true;
-    int shadow_size = 2048;
-    int light = 0;
+    std::optional<std::string> preset;
+    std::optional<std::string> technique;
+
+    // Reflective shadow maps.
+    std::optional<std::string> samples;  // a number, or all
+    std::optional<std::string> pattern;
+    std::optional<bool> interpolate;
+    std::optional<int> lowres;
+    std::optional<std::string> rsm_size;  // a number, or auto
+
+    // Virtual point lights.
+    std::optional<int> vpls;
+    std::optional<int> bounces;
+    std::optional<int> bounce_vpls;
+    std::optional<int> interleave;
+    std::optional<bool> near_field;
+    std::optional<bool> glossy;
+    std::optional<std::string> bounce_source;
+
+    // Their shadow maps.
+    std::optional<std::string> visibility;
+    std::optional<int> ism_size;
+    std::optional<std::string> points;  // a number, or auto
+    std::optional<std::string> splat;
+    std::optional<bool> large_triangles;
+    std::optional<std::string> hull;
+    std::optional<std::string> pull_push;
+    std::optional<int> pull_push_levels;
+    std::optional<float> pull_threshold;
+    std::optional<float> push_threshold;
+
+    std::optional<bool> antialias;
+    std::optional<int> shadow_size;
+    std::optional<std::string> show;
+    std::optional<int> light;
+    std::optional<int> vpl;
+    std::optional<int> bounce;
 
     void add_to(CLI::App& command);
-    // The renderer's settings; the size is the scene's own where none was given. Throws usage_error.
+    // Refuses what is wrong whatever the scene, before it is read. Throws usage_error.
+    void check() const;
+    // The renderer's settings; the size is the scene's own where none was given. Throws usage_error, also for
+    // what the scene does not have.
     [[nodiscard]] Settings settings(const scene::Scene& scene) const;
     // Which animation to play (scene::k_all_animations for a file from Blender). Throws usage_error for
     // an unknown name.
     [[nodiscard]] int animation_index(const scene::Scene& scene) const;
+
+  private:
+    [[nodiscard]] Settings settings_without_scene() const;
 };
+
+// Throws usage_error for settings that the driver cannot hold.
+void require_within(const gl::DeviceLimits& limits, const Settings& settings);
 
 }  // namespace bounce::cli

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include "core/atomic_file.h"
 #include "gl/memory.h"
+#include "renderer/setting_names.h"
 
 namespace bounce::cli {
 namespace {
@@ -42,7 +44,74 @@ ordered_json frame_json(const FrameStats& frame, int pixels) {
         out["gathered_pixels"] = frame.report.gathered_pixels;
         out["gathered_share"] = static_cast<double>(frame.report.gathered_pixels) / pixels;
     }
+    if (frame.report.removed) {
+        out["removed"] = {{"indirect_mean", frame.report.removed->indirect},
+                          {"removed_mean", frame.report.removed->removed},
+                          {"bias", frame.report.removed->bias()}};
+    }
     return out;
+}
+
+// A float's shortest digits, not the nearest double's.
+double short_digits(float value) {
+    return std::stod(fmt::format("{}", value));
+}
+
+ordered_json settings_json(const Settings& s) {
+    ordered_json out = {
+        {"width", s.width},        {"height", s.height},           {"technique", name_of(s.technique)},
+        {"show", name_of(s.show)}, {"shadow_size", s.shadow_size}, {"antialias", s.antialias}};
+    if (s.technique != Technique::direct) {
+        out["rsm_size"] = s.used_rsm_size();
+    }
+    if (s.technique == Technique::rsm) {
+        out["rsm_samples"] = s.rsm_full_sum ? ordered_json("all") : ordered_json(s.rsm_samples);
+        out["rsm_pattern"] = name_of(s.rsm_pattern);
+        out["rsm_interpolation"] = s.interpolate;
+        out["rsm_lowres"] = s.lowres_step;
+    }
+    if (s.technique != Technique::ism) {
+        return out;
+    }
+    out["vpls"] = s.vpls;
+    out["bounces"] = s.bounces;
+    if (s.bounces > 1) {
+        out["bounce_vpls"] = s.bounce_vpls;
+        out["bounce_source"] = s.splat_irsms ? "irsm" : "points";
+    }
+    out["interleave"] = s.interleave;
+    out["near_field"] = s.near_field;
+    out["glossy"] = s.glossy_bounces;
+    out["visibility"] = name_of(s.visibility);
+    if (s.visibility != Visibility::none) {
+        out["ism_size"] = s.ism_size;
+    }
+    if (s.visibility == Visibility::ism) {
+        out["points"] = s.ism_points > 0 ? ordered_json(s.ism_points) : ordered_json("auto");
+        out["splat"] = name_of(s.splat);
+        out["hull"] = s.drop_hull ? "drop" : "splat";
+        if (s.splat == Splat::disks) {
+            out["large_triangles"] = s.large_triangles;
+        } else {
+            out["pull_push"] = name_of(s.pull_push);
+            out["pull_push_levels"] = s.pull_push_levels;
+            out["pull_threshold"] = short_digits(s.pull_threshold);
+            out["push_threshold"] = short_digits(s.push_threshold);
+        }
+    }
+    return out;
+}
+
+ordered_json counts_json(const FrameReport& report) {
+    return {{"triangles", report.triangles},
+            {"lights", report.lights},
+            {"vpls", report.vpls},
+            {"rsm_samples", report.rsm_samples},
+            {"points", report.points},
+            {"points_a_map", report.points_a_map},
+            {"large_triangles", report.large_triangles},
+            {"map_size", report.map_size},
+            {"atlas", {report.atlas_width, report.atlas_height}}};
 }
 
 }  // namespace
@@ -63,16 +132,7 @@ void StatsFile::write(const std::filesystem::path& path) const {
                  {"renderer", device_.renderer},
                  {"version", device_.version},
                  {"timing", device_.software ? "finish" : "query"}};
-    out["settings"] = {{"width", settings_.width},
-                       {"height", settings_.height},
-                       {"technique", options_.technique},
-                       {"show", options_.show},
-                       {"rsm_samples", options_.samples},
-                       {"rsm_pattern", options_.pattern},
-                       {"rsm_interpolation", settings_.interpolate},
-                       {"rsm_lowres", settings_.lowres_step},
-                       {"rsm_size", settings_.rsm_size},
-                       {"shadow_size", settings_.shadow_size}};
+    out["settings"] = settings_json(settings_);
     out["frames"] = ordered_json::array();
     for (const FrameStats& frame : frames_) {
         out["frames"].push_back(frame_json(frame, settings_.width * settings_.height));
@@ -80,8 +140,8 @@ void StatsFile::write(const std::filesystem::path& path) const {
     const FrameReport last = frames_.empty() ? FrameReport{} : frames_.back().report;
     out["left_out"] = left_out_json(last.left_out);
     out["approximations"] = last.approximations;
-    out["counts"] = {
-        {"triangles", last.triangles}, {"vpls", last.rsm_samples}, {"points", 0}, {"lights", last.lights}};
+    out["notes"] = last.notes;
+    out["counts"] = counts_json(last);
     out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()},
                      {"rss_peak_bytes", peak_resident_bytes()}};
     write_text_file(path, out.dump(2) + "\n");

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/render_options.h"
 #include "gl/context.h"
 #include "renderer/renderer.h"
 
@@ -22,9 +21,8 @@ struct FrameStats {
 // stats.json, schema bounce.stats/1 (docs/architecture.md).
 class StatsFile {
   public:
-    StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings,
-              const RenderOptions& options)
-        : scene_(std::move(scene)), device_(std::move(device)), settings_(settings), options_(options) {}
+    StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings)
+        : scene_(std::move(scene)), device_(std::move(device)), settings_(settings) {}
     void add(FrameStats frame) { frames_.push_back(std::move(frame)); }
     // Atomically. Throws output_error.
     void write(const std::filesystem::path& path) const;
@@ -33,7 +31,6 @@ class StatsFile {
     std::string scene_;
     gl::DeviceInfo device_;
     Settings settings_;
-    RenderOptions options_;
     std::vector<FrameStats> frames_;
 };
 

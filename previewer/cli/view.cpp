@@ -27,6 +27,7 @@ scene::LoadResult load(const Arguments& arguments) {
 }
 
 ExitCode view(const Arguments& arguments) {
+    arguments.render.check();
     viewer::run_viewer({
         .scene = arguments.scene,
         .load = [&] { return load(arguments); },

@@ -28,7 +28,7 @@ struct EvaluateOptions {
     int repeat = 5;  // renders of each frame by Bounce, of which the median counts
     SceneSourceOptions source;
     std::filesystem::path bounce;  // the program whose `render` command draws
-    std::vector<PreviewRun> runs = default_preview_runs();
+    std::vector<PreviewRun> runs;
     std::string command;  // as typed, for the report
 };
 

@@ -33,6 +33,9 @@ std::string sentence_in(const std::string& output) {
                          end - (line == std::string::npos ? 0 : line) + 1);
 }
 
+// As many as `bounce render` draws.
+constexpr int k_most_bounces = 4;
+
 std::string frame_file(int frame) {
     return fmt::format("frame.{:04}.exr", frame);
 }
@@ -74,16 +77,34 @@ PreviewResult read_stats(const fs::path& stats, const std::vector<int>& frames, 
 
 }  // namespace
 
-std::vector<PreviewRun> default_preview_runs() {
+std::vector<PreviewRun> default_preview_runs(int bounces) {
     std::vector<PreviewRun> runs{{"Direct light only", "direct", {"--technique", "direct"}}};
-    for (const auto& [name, interpolation] :
-         {std::pair{"RSM, interpolated", "on"}, std::pair{"RSM, every pixel", "off"}}) {
-        for (const int samples : {112, 224, 448, 1024}) {
-            runs.push_back({name,
-                            fmt::format("{} samples", samples),
-                            {"--technique", "rsm", "--rsm-samples", std::to_string(samples),
-                             "--rsm-interpolation", interpolation}});
+    if (bounces < 1) {
+        return runs;
+    }
+    for (const int samples : {112, 448}) {
+        runs.push_back({"RSM, not occluded",
+                        fmt::format("{} samples", samples),
+                        {"--technique", "rsm", "--rsm-samples", std::to_string(samples)}});
+    }
+    const int most = std::min(bounces, k_most_bounces);
+    const auto add = [&](const std::string& name, int vpls, int of, std::vector<std::string> more) {
+        PreviewRun run{
+            name, fmt::format("{} VPLs", vpls), {"--technique", "ism", "--vpls", std::to_string(vpls)}};
+        if (of > 1) {
+            run.render_arguments.insert(run.render_arguments.end(), {"--bounces", std::to_string(of)});
         }
+        run.render_arguments.insert(run.render_arguments.end(), more.begin(), more.end());
+        runs.push_back(run);
+    };
+    for (const int vpls : {64, 256, 1024}) {
+        add("VPLs, not occluded", vpls, most, {"--visibility", "none"});
+    }
+    if (most > 1) {
+        add("ISM, one bounce", 256, 1, {});
+    }
+    for (const int vpls : {64, 128, 256, 512, 1024}) {
+        add(most > 1 ? fmt::format("ISM, {} bounces", most) : "ISM", vpls, most, {});
     }
     return runs;
 }

@@ -14,9 +14,10 @@ struct PreviewRun {
     std::vector<std::string> render_arguments;
 };
 
-// The runs of `bounce evaluate`: direct light alone, and reflective shadow maps with 112 to 1,024
-// samples, interpolated in screen space and gathered in every pixel.
-[[nodiscard]] std::vector<PreviewRun> default_preview_runs();
+// The runs of `bounce evaluate` against a reference of so many bounces: direct light alone, reflective shadow
+// maps, and virtual point lights, 64 to 1,024 of them, with imperfect shadow maps and without, with the
+// reference's bounces (at most 4) and with one. Without bounces direct light alone.
+[[nodiscard]] std::vector<PreviewRun> default_preview_runs(int bounces);
 
 struct PreviewFrame {
     int frame = 1;

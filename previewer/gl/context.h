@@ -6,6 +6,12 @@
 
 namespace bounce::gl {
 
+// What the driver can hold at most.
+struct DeviceLimits {
+    int texture_size = 16384;                             // texels a side
+    long long storage_block_bytes = 128LL * 1024 * 1024;  // one buffer that shaders read
+};
+
 struct DeviceInfo {
     std::string vendor;
     std::string renderer;
@@ -13,6 +19,7 @@ struct DeviceInfo {
     // Mesa's llvmpipe or softpipe: work runs inside the call that submits it, so timer queries
     // measure nothing (see pass_timer.h).
     bool software = false;
+    DeviceLimits limits;
 };
 
 // A current OpenGL 4.5 core context without a window, through EGL's surfaceless platform, falling back to

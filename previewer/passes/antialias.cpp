@@ -72,8 +72,8 @@ TextureHandle add_depth_samples(FrameGraph& graph, const PassContext& context, c
 
 }  // namespace
 
-void add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer, const View& camera,
-                   TextureHandle picture, TextureHandle target) {
+TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                            const View& camera, TextureHandle picture, TextureHandle target) {
     const auto places = std::make_shared<std::array<glm::vec2, k_samples>>();  // known when they are drawn
     const TextureHandle samples = add_depth_samples(graph, context, camera, places);
     TextureHandle sources;
@@ -95,10 +95,11 @@ void add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer&
             finish_writes();
         };
     });
+    TextureHandle out;
     graph.add_pass("antialias", [&](PassBuilder& builder) {
         builder.read(picture);
         builder.read(sources);
-        const TextureHandle out = builder.write(target);
+        out = builder.write(target);
         return [context, picture, sources, out, places](const PassResources& resources) {
             context.programs.compute("passes/antialias.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
@@ -111,6 +112,7 @@ void add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer&
             finish_writes();
         };
     });
+    return out;
 }
 
 }  // namespace bounce::passes

@@ -9,7 +9,8 @@ namespace bounce::passes {
 // the scene's depth is drawn again at four samples a pixel, each sample takes the colour of that pixel nearby
 // whose surface it lies on, and samples are weighed by Cycles' own pixel filter
 // (shaders/passes/antialias.comp).
-void add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer, const View& camera,
-                   TextureHandle picture, TextureHandle target);
+[[nodiscard]] TextureHandle add_antialias(FrameGraph& graph, const PassContext& context,
+                                          const GBuffer& gbuffer, const View& camera, TextureHandle picture,
+                                          TextureHandle target);
 
 }  // namespace bounce::passes

@@ -30,6 +30,16 @@ bool deforms(const scene::Scene& scene, const scene::DrawInstance& draw) {
         });
 }
 
+// Bounced light was asked for, but there is none in this frame.
+void leave_out_bounces(FramePlan& plan, const std::string& reason) {
+    if (!plan.indirect) {
+        return;
+    }
+    plan.indirect = false;
+    plan.left_out.push_back({"rsm", reason});
+    plan.notes.push_back("no bounced light: " + reason);
+}
+
 // Calls visit(material) for each material that a visible draw uses.
 template <typename Visit>
 void for_each_material(const scene::Scene& scene, const scene::Pose& pose, Visit&& visit) {
@@ -42,7 +52,7 @@ void for_each_material(const scene::Scene& scene, const scene::Pose& pose, Visit
     }
 }
 
-void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& plan) {
+void plan_lights(const scene::Pose& pose, FramePlan& plan) {
     for (size_t i = 0; i < pose.light_instances.size(); ++i) {
         const scene::Light& light = pose.lights[at(pose.light_instances[i].light)];
         if (!sends_light(light)) {
@@ -63,12 +73,33 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, FramePlan& p
                 fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
         }
     }
-    if (settings.technique != Technique::direct && plan.lights.empty()) {
-        plan.left_out.push_back({"rsm", "no light sends light"});
+    if (plan.lights.empty()) {
+        leave_out_bounces(plan, "no light sends light");
     }
 }
 
-void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePlan& plan) {
+bool draws_triangles(const scene::Scene& scene, const scene::Pose& pose) {
+    return std::any_of(pose.draws.begin(), pose.draws.end(), [&](const scene::DrawInstance& draw) {
+        const std::vector<scene::Primitive>& primitives = scene.meshes[at(draw.mesh)].primitives;
+        return std::any_of(primitives.begin(), primitives.end(),
+                           [](const scene::Primitive& primitive) { return !primitive.indices.empty(); });
+    });
+}
+
+// A primitive without a material is white metal in glTF.
+bool draws_default_material(const scene::Scene& scene, const scene::Pose& pose) {
+    return std::any_of(pose.draws.begin(), pose.draws.end(), [&](const scene::DrawInstance& draw) {
+        const std::vector<scene::Primitive>& primitives = scene.meshes[at(draw.mesh)].primitives;
+        return std::any_of(primitives.begin(), primitives.end(), [](const scene::Primitive& primitive) {
+            return primitive.material == scene::k_none && !primitive.indices.empty();
+        });
+    });
+}
+
+void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
+                    FramePlan& plan) {
+    // Lights with glossy lobes carry what metals reflect, too.
+    const bool glossy = settings.technique == Technique::ism && settings.glossy_bounces;
     bool blend = false;
     bool emitters = false;
     bool reflects = false;
@@ -78,13 +109,14 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePla
         plan.emission |= shines || material.unlit;  // an unlit surface shows its colour as if it emitted it
         blend |= material.alpha_mode == scene::AlphaMode::blend;
         // Where a texture says what is metal, the factor 1 is only glTF's default.
-        const float metallic = material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
+        const float metallic =
+            glossy || material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
         reflects |= !is_dark(glm::vec3(material.base_color) * (1.0F - metallic)) && !material.unlit;
     });
-    // A primitive without a material is white metal in glTF: no diffuse bounce either.
-    if (plan.indirect && !reflects) {
-        plan.indirect = false;
-        plan.left_out.push_back({"rsm", "no surface reflects diffusely"});
+    if (!draws_triangles(scene, pose)) {
+        leave_out_bounces(plan, "nothing that is drawn has a triangle");
+    } else if (!reflects && !(glossy && draws_default_material(scene, pose))) {
+        leave_out_bounces(plan, glossy ? "no surface reflects light" : "no surface reflects diffusely");
     }
     if (blend) {
         plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
@@ -101,7 +133,8 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, FramePla
 
 FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings) {
     FramePlan plan;
-    plan.direct = settings.show == Show::shaded || settings.show == Show::direct;
+    plan.direct =
+        settings.show == Show::shaded || settings.show == Show::direct || settings.show == Show::vpls;
     plan.indirect = settings.technique != Technique::direct && settings.show != Show::direct;
     if (settings.technique == Technique::direct) {
         plan.left_out.push_back({"rsm", "direct light only was asked for"});
@@ -111,29 +144,32 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     if (!plan.deform) {
         plan.left_out.push_back({"deform", "no visible mesh is skinned or morphs"});
     }
-    plan_lights(pose, settings, plan);
-    plan.indirect = plan.indirect && !plan.lights.empty();
+    plan_lights(pose, plan);
     plan.direct = plan.direct && !plan.lights.empty();
-    plan_materials(scene, pose, plan);
-    plan.vpls = plan.indirect && settings.technique == Technique::ism;
+    plan_materials(scene, pose, settings, plan);
+    plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.near_field = plan.vpls && settings.near_field;
     plan.glossy = plan.vpls && settings.glossy_bounces;
     plan.occluded = plan.vpls && settings.visibility != Visibility::none;
     plan.bounces = plan.vpls ? settings.bounces : 0;
-    plan.interpolate = plan.indirect && !plan.vpls && settings.interpolate && settings.lowres_step > 1 &&
-                       !settings.rsm_full_sum;
-    if (plan.indirect && !plan.vpls && !plan.interpolate) {
+    plan.interpolate = plan.indirect && settings.technique == Technique::rsm && settings.interpolate &&
+                       settings.lowres_step > 1 && !settings.rsm_full_sum;
+    if (plan.indirect && settings.technique == Technique::rsm && !plan.interpolate) {
         plan.left_out.push_back({"rsm interpolate", "every pixel is evaluated in full, as asked for"});
     }
-    plan.antialias = settings.antialias && !pose.draws.empty();
+    plan.antialias = settings.antialias && !pose.draws.empty() &&
+                     (shows_light(settings.show) || settings.show == Show::vpls) &&
+                     settings.show != Show::unblurred;
     if (!plan.antialias) {
-        plan.left_out.push_back(
-            {"antialias", settings.antialias ? "nothing is drawn" : "pictures without it were asked for"});
+        plan.left_out.push_back({"antialias", !settings.antialias  ? "pictures without it were asked for"
+                                              : pose.draws.empty() ? "nothing is drawn"
+                                                                   : "the layer shows data as they are"});
     }
-    plan.world_light = !is_dark(pose.world.color * pose.world.strength) && settings.show == Show::shaded;
+    const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
+    plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
     if (plan.world_light) {
         plan.approximations.emplace_back("the world's light is not occluded");
-    } else if (settings.show == Show::shaded) {
+    } else if (whole) {
         plan.left_out.push_back({"world light", "the world is black"});
     }
     return plan;

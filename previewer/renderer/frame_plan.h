@@ -31,6 +31,7 @@ struct FramePlan {
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`
     std::vector<LeftOut> left_out;            // and why
+    std::vector<std::string> notes;           // why the picture lacks what was asked for
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
 };
 

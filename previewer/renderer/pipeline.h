@@ -5,6 +5,7 @@
 
 #include "gpu/point_store.h"
 #include "passes/pass_context.h"
+#include "passes/removed_light.h"
 #include "passes/rsm_gather.h"
 #include "passes/vpl_sampling.h"
 #include "renderer/frame_plan.h"
@@ -29,7 +30,11 @@ struct PipelineInputs {
     gpu::PointStore* points = nullptr;                   // where the plan needs them
     std::vector<Bounce> bounces;                         // plan.bounces of them
     TextureHandle target;
-    int* gathered_pixels = nullptr;  // filled where settings ask for it
+    // Filled where they are there, each for a wait.
+    int* gathered_pixels = nullptr;
+    passes::RemovedLight* removed = nullptr;
+    float* reflected_flux =
+        nullptr;  // of all reflective shadow maps, in no particular unit; 0: nothing is lit
 };
 
 // Wires the passes of one frame. The only place that does: reading it top to bottom is reading the frame.

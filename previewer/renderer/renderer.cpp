@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -30,13 +31,15 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
     frame.interpolation = {std::cos(glm::radians(settings.interpolation_angle_deg)),
                            settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
                            settings.interpolation_distance};
-    frame.composite = {scene.render.film_exposure, settings.show == Show::shaded ? 1.0F : 0.0F, 0.0F, half_scale};
+    const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
+    frame.composite = {scene.render.film_exposure, whole ? 1.0F : 0.0F, 0.0F, half_scale};
     return frame;
 }
 
-// Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would give
-// to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for what is
-// darker with all its digits, and of a million for what is brighter. A power of two costs no digit itself.
+// Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would
+// give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
+// what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
+// itself.
 float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
     const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
     const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
@@ -74,13 +77,32 @@ passes::VplSet vpl_set(const IsmLayout& layout) {
     return set;
 }
 
+// Lights of further bounces are drawn from a table of every lighted point, which must fit into one block of
+// what shaders read.
+void require_fitting_sums(const Settings& settings, int points_a_map, int bounces) {
+    if (bounces < 2 || settings.splat_irsms) {
+        return;
+    }
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    const int lights = bounces > 2 ? std::max(settings.vpls, settings.bounce_vpls) : settings.vpls;
+    const int64_t bytes = int64_t{lights} * points_a_map * int64_t{sizeof(float)};
+    if (bytes > most) {
+        throw usage_error(fmt::format(
+            "{} virtual point lights with {} points each are too many for this OpenGL driver to draw further "
+            "bounces from: lower {} to {}, or give --bounces 1",
+            lights, points_a_map, lights == settings.vpls ? "--vpls" : "--bounce-vpls",
+            most / (int64_t{sizeof(float)} * points_a_map)));
+    }
+}
+
 }  // namespace
 
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
 
 std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
-                                              FramePlan& plan) {
+                                              FramePlan& plan, FrameReport& report) {
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
     if (needs_points && !points_) {
@@ -103,6 +125,7 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
                                  ? settings.ism_points
                                  : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
         irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
+        require_fitting_sums(settings, irsm.points_a_map, plan.bounces);
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
         counts.occluders = splats ? points_in_all(first) : 0;
@@ -116,13 +139,33 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
             plan.occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
+            if (shows_vpl_maps(settings.show)) {
+                plan.notes.emplace_back(
+                    "there are no shadow maps to show: nothing stands between two places of the scene");
+            }
         }
+        if (plan.bounces > 1 && points_->reflectors() == 0) {
+            plan.bounces = 1;
+            plan.left_out.push_back({"further bounces", "no surface has an area, so none has a point"});
+            plan.notes.emplace_back("no further bounces: no surface has an area");
+        }
+    }
+    if (needs_points) {
+        report.points = points_->occluders();
+        report.points_a_map = plan.occluded ? first.points_a_map : 0;
+        report.large_triangles = points_->large_triangles();
+    }
+    if (plan.occluded) {
+        report.map_size = first.map_size;
+        report.atlas_width = first.atlas_width();
+        report.atlas_height = first.atlas_height();
     }
     std::vector<Bounce> out;
     for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
         const IsmLayout layout = ism_layout(settings, bounce, first.points_a_map);
         Bounce& added = out.emplace_back();
         added.lights = vpl_set(layout);
+        report.vpls += layout.vpls;
         const size_t occluders = needs_points ? points_->occluders() : 0;
         added.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
         IsmLayout maps = layout;
@@ -205,18 +248,16 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     for (size_t i = 0; i < samples.size(); ++i) {
         gather_frames.push_back(frame_slot(samples[i]));
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
-        report.rsm_samples += plan.indirect ? samples[i] : 0;
+        report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
-    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan);
-    if (!bounces.empty()) {
-        report.vpls = bounces.front().lights.maps;
-    }
-    if (!bounces.empty() && plan.occluded && settings.visibility == Visibility::ism) {
-        report.points_a_map = bounces.front().lights.points_a_map;
-        report.large_triangles = points_->large_triangles();
-    }
+    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
     uniforms_.upload();
     report.left_out = plan.left_out;
+    report.notes = plan.notes;
+    float reflected_flux = -1.0F;
+    if (settings.measure_removed && plan.vpls) {
+        report.removed.emplace();
+    }
 
     gl::PassTimer timer(timing);
     if (plan.deform) {
@@ -243,11 +284,18 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
                     .bounces = bounces,
                     .target = graph.import_texture("color", color_),
-                    .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr});
+                    .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
+                    .removed = report.removed ? &*report.removed : nullptr,
+                    .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr});
     graph.execute(timer);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    if (reflected_flux == 0.0F) {
+        const std::string reason = "no light reaches a surface that reflects it";
+        report.left_out.push_back({"bounced light", reason});
+        report.notes.push_back("no bounced light: " + reason);
     }
     pool_.end_frame();
     report.passes = timer.collect();

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,9 +36,15 @@ struct FrameReport {
     int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
 
     // Virtual point lights and their shadow maps; 0 where there are none.
-    int vpls = 0;
+    int vpls = 0;          // of all bounces
     int points_a_map = 0;  // splatted into each map
+    size_t points = 0;     // in the sequence that maps take theirs from
     size_t large_triangles = 0;
+    int map_size = 0;     // texels a side
+    int atlas_width = 0;  // of the first bounce's maps
+    int atlas_height = 0;
+    std::optional<passes::RemovedLight> removed;  // where the settings ask for it
+    std::vector<std::string> notes;               // why the picture lacks what was asked for
 };
 
 // Draws a scene. Needs a current context set up by gl::initialise_current_context() for its whole life.
@@ -67,7 +74,8 @@ class Renderer {
   private:
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
-    std::vector<Bounce> prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan);
+    std::vector<Bounce> prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan,
+                                        FrameReport& report);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;

@@ -40,14 +40,30 @@ enum class Show {
     removed,         // light that bounding the lights' kernels takes away
 };
 
+// Light, to be seen through the scene's view transform; the other layers are data.
+[[nodiscard]] inline bool shows_light(Show show) {
+    return show == Show::shaded || show == Show::direct || show == Show::indirect ||
+           show == Show::unblurred || show == Show::removed;
+}
+
+[[nodiscard]] inline bool shows_rsm(Show show) {
+    return show == Show::rsm_depth || show == Show::rsm_position || show == Show::rsm_normal ||
+           show == Show::rsm_flux;
+}
+
+// Shadow maps of virtual point lights, or what they leave lit.
+[[nodiscard]] inline bool shows_vpl_maps(Show show) {
+    return show == Show::ism_splats || show == Show::ism || show == Show::vpl_visibility;
+}
+
 struct Settings {
     int width = 960;
     int height = 540;
     Technique technique = Technique::ism;
     Show show = Show::shaded;
     int shown_light = 0;   // whose RSM the rsm_ layers show
-    int shown_vpl = 0;     // whose map vpl_visibility shows
-    int shown_bounce = 1;  // whose lights and maps the layers of both show
+    int shown_vpl = -1;    // whose map vpl_visibility (-1: the first) and the atlases (-1: all) show
+    int shown_bounce = 0;  // whose lights and maps the layers of both show; 0: all lights, the first's maps
 
     // Over all lights; each gets its part by the light it sends out. 224 is the middle of the paper's range.
     int rsm_samples = 224;
@@ -90,6 +106,7 @@ struct Settings {
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
+    bool find_unlit = false;             // says where no light reaches what reflects it; costs a wait
 
     [[nodiscard]] int used_rsm_size() const {
         return rsm_size > 0 ? rsm_size : technique == Technique::ism ? 256 : 512;

@@ -62,6 +62,7 @@ void add_material(const Material& material, SceneFeatures& features) {
     features.double_sided |= material.double_sided;
     features.unlit |= material.unlit;
     features.disney_diffuse |= material.diffuse == DiffuseModel::disney;
+    features.reflects |= !material.unlit && any_above_zero(glm::vec3(material.base_color));
     if (any_above_zero(material.emission * material.emission_strength)) {
         features.emissive = true;
         features.emission_texture |= material.emission_texture.present();
@@ -125,6 +126,7 @@ void add_animated_material(const AnimationSampler& sampler, Property property, c
         features.emissive = true;
         features.emission_texture |= material.emission_texture.present();
     }
+    features.reflects |= property == Property::material_base_color && !material.unlit && above_zero;
     // Which values the curve passes is not looked at: being glossy for one frame is being glossy.
     features.glossy |= property == Property::material_metallic || property == Property::material_roughness;
 }

@@ -35,6 +35,7 @@ struct SceneFeatures {
     bool unlit = false;
     bool glossy = false;  // any surface that mirrors more than a rough dielectric does
     bool disney_diffuse = false;
+    bool reflects = false;  // any surface has a base colour that is not black and is lit
     bool world_not_black = false;
 
     bool animated_camera = false;

@@ -50,6 +50,18 @@ std::optional<Command> command_of(char32_t character) {
             return Command::show_rsm_flux;
         case U'8':
             return Command::show_interpolation;
+        case U'9':
+            return Command::show_vpls;
+        case U'm':
+            return Command::show_ism;
+        case U'v':
+            return Command::show_vpl_visibility;
+        case U',':
+            return Command::previous_vpl;
+        case U'.':
+            return Command::next_vpl;
+        case U'b':
+            return Command::next_bounce;
         case U'l':
             return Command::next_light;
         case U'[':
@@ -89,9 +101,14 @@ const std::vector<HelpLine>& help_lines() {
         {"3", "indirect light only"},
         {"4 5 6 7", "reflective shadow map: depth, position, normal, flux"},
         {"8", "where indirect light was interpolated"},
+        {"9", "virtual point lights"},
+        {"M", "their shadow maps"},
+        {"V", "what one of them lights, and what its map hides"},
+        {",  .", "previous, next virtual point light (for V and M)"},
+        {"B", "next bounce (for 9, M and V)"},
         {"L", "next light (for 4 to 7)"},
         {"[  ]", "exposure half a stop down, up"},
-        {"T", "technique: direct, rsm"},
+        {"T", "technique: ism, rsm, direct"},
         {"I", "interpolation on or off"},
         {"S", "save PNG and EXR of the frame"},
         {"H", "hide or show the panels"},

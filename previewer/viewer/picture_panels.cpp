@@ -3,43 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "renderer/ism_layout.h"
+#include "viewer/choices.h"
+
 namespace bounce::viewer {
 namespace {
-
-// The slider's end; --rsm-samples takes more.
-constexpr int k_most_samples = 4096;
-
-// A drop-down list of sizes; true where another was chosen.
-template <size_t N>
-bool choose_size(const char* label, const std::array<int, N>& sizes, int& value) {
-    bool changed = false;
-    if (ImGui::BeginCombo(label, fmt::format("{}", value).c_str())) {
-        for (const int size : sizes) {
-            if (ImGui::Selectable(fmt::format("{}", size).c_str(), size == value) && size != value) {
-                value = size;
-                changed = true;
-            }
-        }
-        ImGui::EndCombo();
-    }
-    return changed;
-}
-
-// A drop-down list of an enumeration's values, which count from 0 in the order of the names.
-template <typename T, size_t N>
-bool choose(const char* label, const std::array<const char*, N>& names, T& value) {
-    int index = static_cast<int>(value);
-    if (!ImGui::Combo(label, &index, names.data(), static_cast<int>(N))) {
-        return false;
-    }
-    value = static_cast<T>(index);
-    return true;
-}
 
 void choose_light(Settings& settings, const PanelFacts& facts, PanelResult& result) {
     if (facts.lights.empty()) {
@@ -89,15 +61,41 @@ void bullet(const std::string& text) {
     ImGui::TextWrapped("%s", text.c_str());
 }
 
+// Whose lights and maps a layer shows.
+void choose_vpl(Settings& settings, PanelResult& result) {
+    if (settings.bounces > 1) {
+        result.picture_changed |= ImGui::SliderInt("of bounce", &settings.shown_bounce, 0, settings.bounces,
+                                                   settings.shown_bounce > 0     ? "%d"
+                                                   : settings.show == Show::vpls ? "all"
+                                                                                 : "1",
+                                                   ImGuiSliderFlags_AlwaysClamp);
+    }
+    if (shows_vpl_maps(settings.show)) {
+        const int vpls = ism_layout(settings, std::max(settings.shown_bounce, 1), 0).vpls;
+        settings.shown_vpl = std::min(settings.shown_vpl, vpls - 1);
+        const bool all = settings.shown_vpl < 0;
+        result.picture_changed |= ImGui::SliderInt("light", &settings.shown_vpl, -1, vpls - 1,
+                                                   !all                                    ? "%d"
+                                                   : settings.show == Show::vpl_visibility ? "0"
+                                                                                           : "all",
+                                                   ImGuiSliderFlags_AlwaysClamp);
+    }
+}
+
 }  // namespace
 
 void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
-    constexpr std::array<const char*, 8> shows = {"shaded",    "direct light", "indirect light",
-                                                  "RSM depth", "RSM position", "RSM normal",
-                                                  "RSM flux",  "interpolation"};
+    constexpr std::array<const char*, 14> shows = {
+        "shaded",          "direct light", "indirect light", "RSM depth",
+        "RSM position",    "RSM normal",   "RSM flux",       "interpolation",
+        "virtual lights",  "ISM splats",   "ISM atlas",      "visibility of a light",
+        "unblurred light", "removed light"};
     result.picture_changed |= choose("show", shows, state.settings.show);
-    if (shows_rsm_layer(state.settings.show)) {
+    if (shows_rsm(state.settings.show)) {
         choose_light(state.settings, facts, result);
+    }
+    if (state.settings.show == Show::vpls || shows_vpl_maps(state.settings.show)) {
+        choose_vpl(state.settings, result);
     }
     // The picture stays; only its display changes.
     ImGui::SliderFloat("exposure", &state.exposure_stops, -8.0F, 8.0F, "%+.1f stops");
@@ -115,43 +113,22 @@ void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& fact
     }
 }
 
-void technique_section(ViewState& state, PanelResult& result) {
-    if (!ImGui::CollapsingHeader("Technique", ImGuiTreeNodeFlags_DefaultOpen)) {
-        return;
-    }
-    Settings& settings = state.settings;
-    bool changed = choose("technique", std::array{"direct", "rsm"}, settings.technique);
-    if (settings.technique == Technique::rsm) {
-        ImGui::BeginDisabled(settings.rsm_full_sum);
-        changed |= ImGui::SliderInt("samples", &settings.rsm_samples, 1, k_most_samples, "%d",
-                                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-        changed |= choose("pattern", std::array{"inverse square", "uniform radius", "paper, literal"},
-                          settings.rsm_pattern);
-        changed |= ImGui::Checkbox("interpolate", &settings.interpolate);
-        if (settings.interpolate) {
-            changed |= choose_size("low-res step", std::array{2, 4, 8, 16, 32}, settings.lowres_step);
-        }
-        ImGui::EndDisabled();
-        changed |= ImGui::Checkbox("sum every texel (slow)", &settings.rsm_full_sum);
-        changed |= choose_size("RSM size", std::array{64, 128, 256, 512, 1024, 2048}, settings.rsm_size);
-    }
-    changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
-    int scale = state.render_divisor == 1 ? 0 : state.render_divisor == 2 ? 1 : 2;
-    if (choose("render scale", std::array{"1", "1/2", "1/4"}, scale)) {
-        state.render_divisor = 1 << scale;
-        changed = true;
-    }
-    result.picture_changed |= changed;
-}
-
 void frame_section(ViewState& state, const PanelFacts& facts, PanelResult& result) {
     if (!ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
     const FrameReport& report = facts.report;
     ImGui::Text("%zu triangles, %d light%s", report.triangles, report.lights, report.lights == 1 ? "" : "s");
-    if (report.rsm_samples > 0) {
+    if (report.vpls > 0) {
+        ImGui::Text("%d virtual point lights", report.vpls);
+    } else if (report.rsm_samples > 0) {
         ImGui::Text("%d samples a gathered pixel", report.rsm_samples);
+    }
+    if (report.map_size > 0) {
+        ImGui::Text("maps of %d x %d, %d points each", report.map_size, report.map_size, report.points_a_map);
+    }
+    if (report.large_triangles > 0) {
+        ImGui::Text("and %zu large triangles", report.large_triangles);
     }
     ImGui::TextDisabled("%s", facts.device.c_str());
     result.picture_changed |= ImGui::Checkbox("time each pass", &state.time_passes);
@@ -171,6 +148,9 @@ void frame_section(ViewState& state, const PanelFacts& facts, PanelResult& resul
 
 void notes_section(const PanelFacts& facts) {
     const FrameReport& report = facts.report;
+    for (const std::string& note : report.notes) {
+        bullet(note);
+    }
     if (!report.left_out.empty() && ImGui::CollapsingHeader("Left out")) {
         for (const LeftOut& item : report.left_out) {
             bullet(fmt::format("{}: {}", item.pass, item.reason));

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/state_commands.h"
 
+#include <algorithm>
+
+#include "renderer/ism_layout.h"
+
 namespace bounce::viewer {
 namespace {
 
@@ -12,6 +16,13 @@ Effect show(ViewState& state, Show what) {
 Effect adjust_exposure(ViewState& state, float stops) {
     state.exposure_stops += stops;
     return Effect::none;
+}
+
+// Through -1, which stands for all, or the first.
+Effect step_vpl(Settings& settings, int by) {
+    const int places = ism_layout(settings, std::max(settings.shown_bounce, 1), 0).vpls + 1;
+    settings.shown_vpl = (settings.shown_vpl + 1 + by + places) % places - 1;
+    return Effect::picture_changed;
 }
 
 Effect toggle(bool& value, Effect effect) {
@@ -56,12 +67,27 @@ Effect perform_on_state(Command command, ViewState& state, Playback& playback, d
             return show(state, Show::rsm_flux);
         case Command::show_interpolation:
             return show(state, Show::interpolation);
+        case Command::show_vpls:
+            return show(state, Show::vpls);
+        case Command::show_ism:
+            return show(state, Show::ism);
+        case Command::show_vpl_visibility:
+            return show(state, Show::vpl_visibility);
+        case Command::previous_vpl:
+            return step_vpl(settings, -1);
+        case Command::next_vpl:
+            return step_vpl(settings, 1);
+        case Command::next_bounce:
+            settings.shown_bounce = (settings.shown_bounce + 1) % (settings.bounces + 1);
+            return Effect::picture_changed;
         case Command::darker:
             return adjust_exposure(state, -half_stop);
         case Command::brighter:
             return adjust_exposure(state, half_stop);
         case Command::toggle_technique:
-            settings.technique = settings.technique == Technique::rsm ? Technique::direct : Technique::rsm;
+            settings.technique = settings.technique == Technique::ism   ? Technique::rsm
+                                 : settings.technique == Technique::rsm ? Technique::direct
+                                                                        : Technique::ism;
             return Effect::picture_changed;
         case Command::toggle_interpolation:
             return toggle(settings.interpolate, Effect::picture_changed);

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/view_state.h"
 
+#include "renderer/settings_check.h"
+
 namespace bounce::viewer {
-namespace {
-
-bool shows_light(Show show) {
-    return show == Show::shaded || show == Show::direct || show == Show::indirect;
-}
-
-}  // namespace
-
-bool shows_rsm_layer(Show show) {
-    return !shows_light(show) && show != Show::interpolation;
-}
-
 ViewTransform shown_view(const ViewState& state, const scene::ViewSettings& scene) {
     ViewTransform view;
     if (shows_light(state.settings.show)) {
@@ -27,18 +17,14 @@ std::string why_not_shown(const Settings& settings, size_t lights) {
     if (settings.show == Show::shaded || settings.show == Show::direct) {
         return {};
     }
-    if (settings.technique == Technique::direct) {
-        return settings.show == Show::indirect
-                   ? "technique direct has no indirect light; T switches to rsm"
-                   : "technique direct has no reflective shadow maps to show; T switches to rsm";
+    if (const std::string refusal = layer_refusal(settings); !refusal.empty()) {
+        const bool by_technique =
+            settings.technique != Technique::ism && settings.show != Show::interpolation;
+        return refusal + (by_technique                           ? "; T switches to another technique"
+                          : settings.technique == Technique::rsm ? "; I switches it on"
+                                                                 : "");
     }
-    if (lights == 0) {
-        return "no light of the scene sends light, so there is no bounce to show";
-    }
-    if (settings.show == Show::interpolation && (!settings.interpolate || settings.rsm_full_sum)) {
-        return "interpolation is off, so there is nothing to show of it; I switches it on";
-    }
-    return {};
+    return lights == 0 ? "no light of the scene sends light, so there is no bounce to show" : "";
 }
 
 }  // namespace bounce::viewer

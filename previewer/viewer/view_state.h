@@ -19,8 +19,6 @@ struct ViewState {
     bool show_help = false;
 };
 
-[[nodiscard]] bool shows_rsm_layer(Show show);
-
 // What the window does to the picture's colours. Layers of data are shown without the scene's look, as
 // bounce render writes them.
 [[nodiscard]] ViewTransform shown_view(const ViewState& state, const scene::ViewSettings& scene);

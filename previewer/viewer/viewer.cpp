@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "gl/debug_output.h"
+#include "renderer/settings_check.h"
 #include "viewer/display.h"
 #include "viewer/frame_clock.h"
 #include "viewer/panels.h"
@@ -47,6 +48,9 @@ class Viewer {
           stage_(std::make_unique<Stage>(std::move(loaded), options.choose_animation)),
           viewpoint_(stage_->scene().active_camera_node),
           playback_(stage_->scene().frames) {
+        if (const std::string refusal = limits_refusal(settings, device_.limits); !refusal.empty()) {
+            throw usage_error(refusal);
+        }
         state_.settings = settings;
         playback_.seek(options.frame.value_or(playback_.frame()), seconds_now());
         if (!options.camera.empty()) {
@@ -228,7 +232,7 @@ class Viewer {
                 .device = device_.renderer,
                 .message = message_,
                 .problem = problem_,
-                .note = why_not_shown(state_.settings, lights.size()),
+                .note = refusal_.empty() ? why_not_shown(state_.settings, lights.size()) : refusal_,
                 .frame_ms = frame_clock_.median_ms(),
                 .now_s = now,
                 .content_scale = window_.content_scale()};
@@ -240,11 +244,23 @@ class Viewer {
                                       : device_.software  ? gl::TimingMode::finish
                                                           : gl::TimingMode::query;
         const CameraView view = viewpoint_.view(*stage_, state_.settings.width, state_.settings.height);
+        picture_changed_ = false;
+        refusal_ = limits_refusal(state_.settings, device_.limits);
+        if (!refusal_.empty()) {
+            return;  // the picture before stays
+        }
         const double start = seconds_now();
-        report_ = stage_->renderer().render(stage_->pose(), view, state_.settings, timing);
+        try {
+            report_ = stage_->renderer().render(stage_->pose(), view, state_.settings, timing);
+        } catch (const Error& error) {
+            if (error.code() != ExitCode::usage) {
+                throw;
+            }
+            refusal_ = error.what();  // settings that this scene and driver do not go with
+            return;
+        }
         glFinish();
         frame_clock_.add((seconds_now() - start) * 1000.0);
-        picture_changed_ = false;
     }
 
     // Puts a changed file's scene on stage, or says why not and keeps what is there.
@@ -306,6 +322,7 @@ class Viewer {
     std::string message_;
     double message_until_s_ = 0.0;
     std::string problem_;
+    std::string refusal_;  // why the settings chosen cannot be drawn
 };
 
 }  // namespace

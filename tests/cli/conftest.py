@@ -11,7 +11,8 @@ import gltf_scenes
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARY = os.environ.get("BOUNCE_BINARY", str(ROOT / "build" / "release" / "bounce"))
 # Small enough that a frame costs nothing to speak of.
-SMALL = ["--size", "16x9", "--rsm-samples", "4", "--rsm-size", "16", "--shadow-size", "32"]
+SMALL = ["--size", "16x9", "--rsm-size", "16", "--shadow-size", "32"]
+RSM = ["--technique", "rsm", "--rsm-samples", "4"]
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,7 @@ import time
 
 import gltf_scenes
 import pytest
-from conftest import SMALL
+from conftest import RSM, SMALL
 
 
 def names(folder):
@@ -63,9 +63,19 @@ def test_what_stood_there_before_is_replaced(render, scene, tmp_path):
     assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
 
 
-@pytest.mark.parametrize("show", ["shaded", "direct", "indirect", "rsm-depth", "rsm-position", "rsm-normal", "rsm-flux", "interpolation"])
-def test_every_layer_can_be_shown(render, scene, tmp_path, show):
-    result = render(scene, "-o", "a.png", "-o", "a.exr", "--frames", "12", "--show", show)
+LAYERS = {
+    **dict.fromkeys(["shaded", "direct", "indirect", "rsm-depth", "rsm-position", "rsm-normal", "rsm-flux"], []),
+    **dict.fromkeys(["vpls", "ism", "vpl-visibility", "unblurred"], []),
+    "interpolation": RSM,
+    "ism-splats": ["--splat", "compute"],
+    "removed": ["--near-field", "off"],
+}
+
+
+@pytest.mark.parametrize("option", ["--show", "--layer"])
+@pytest.mark.parametrize("show", LAYERS)
+def test_every_layer_can_be_shown(render, scene, tmp_path, show, option):
+    result = render(scene, "-o", "a.png", "-o", "a.exr", "--frames", "12", option, show, *LAYERS[show])
     assert result.returncode == 0, result.stderr
     assert names(tmp_path) == ["a.exr", "a.png", "scene.glb"]
 
@@ -111,16 +121,16 @@ def test_statistics_that_cannot_be_written_stop_the_work_before_it_starts(render
 
 
 def test_outside_a_terminal_progress_is_a_line_a_frame(render, scene):
-    result = render(scene, "-o", "a.##.png", "--frames", "10-12")
+    result = render(scene, "-o", "a.##.png", "--frames", "11-13")
     lines = result.stderr.splitlines()
     assert [line.split(":")[0] for line in lines] == ["render 1/3", "render 2/3", "render 3/3"]
-    assert [re.search(r"frame (\d+)", line)[1] for line in lines] == ["10", "11", "12"]
+    assert [re.search(r"frame (\d+)", line)[1] for line in lines] == ["11", "12", "13"]
     assert result.stdout == ""
 
 
 @pytest.mark.parametrize("which, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_whole_files_and_no_temporaries(binary, scene, tmp_path, which, code):
-    command = [binary, "render", str(scene), "-o", "out/f.####.exr", "--frames", "1-100000", *SMALL]
+    command = [binary, "render", str(scene), "-o", "out/f.####.exr", "--frames", "11-100010", *SMALL]
     with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
         for _ in range(3):  # frames are on their way
             assert process.stderr.readline().startswith("render ")
@@ -130,7 +140,7 @@ def test_an_interrupt_leaves_whole_files_and_no_temporaries(binary, scene, tmp_p
     message = rest.splitlines()[-1]
     written = int(re.search(r"interrupted; (\d+) of 100000 frames", message)[1])
     files = names(tmp_path / "out")
-    assert files == [f"f.{frame:04}.exr" for frame in range(1, written + 1)], "all whole, nothing else"
+    assert files == [f"f.{frame:04}.exr" for frame in range(11, written + 11)], "all whole, nothing else"
     for name in files:
         assert (tmp_path / "out" / name).stat().st_size > 100
 
@@ -138,7 +148,7 @@ def test_an_interrupt_leaves_whole_files_and_no_temporaries(binary, scene, tmp_p
 def test_a_second_interrupt_ends_it_at_once(binary, scene, tmp_path):
     # One frame that takes minutes: every texel of a large map for every pixel.
     command = [binary, "render", str(scene), "-o", "a.exr", "--frames", "12", "--size", "4096x4096",
-               "--rsm-samples", "all", "--rsm-size", "2048"]
+               "--technique", "rsm", "--rsm-samples", "all", "--rsm-size", "2048"]
     with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
         time.sleep(3)
         process.send_signal(signal.SIGINT)

@@ -4,6 +4,7 @@ import json
 
 import gltf_scenes
 import pytest
+from conftest import RSM
 
 
 @pytest.fixture
@@ -17,7 +18,7 @@ def statistics(render, scene, tmp_path):
 
 
 def test_the_contract(statistics, scene):
-    stats = statistics("--frames", "11,12")
+    stats = statistics("--frames", "11,12", *RSM)
     assert stats["schema"] == "bounce.stats/1"
     assert stats["scene"].endswith(scene.name)
     assert {"vendor", "renderer", "version"} <= stats["gl"].keys()
@@ -36,10 +37,85 @@ def test_the_contract(statistics, scene):
     assert all(item["pass"] and item["reason"] for item in stats["left_out"])
     assert "deform" in [item["pass"] for item in stats["left_out"]]
     assert stats["counts"]["triangles"] == 2
-    assert stats["counts"]["vpls"] == 4
+    assert stats["counts"]["rsm_samples"] == 4
+    assert stats["counts"]["vpls"] == 0
     assert stats["counts"]["points"] == 0
+    assert stats["settings"]["rsm_samples"] == 4
+    assert "vpls" not in stats["settings"], "an option that this technique does not have"
     assert stats["memory"]["gl_peak_bytes"] > 16 * 9 * 16
     assert stats["memory"]["rss_peak_bytes"] > 1 << 20
+
+
+def occluded():
+    """The lit square with a small one 1 m above it and a box-like frame of points around, so that it hides something:
+    a second square far below keeps neither on the scene's hull."""
+    document = gltf_scenes.lit_square()
+    document["nodes"] += [
+        {"name": "Screen", "mesh": 0, "translation": [0, 0, 0.5], "scale": [0.3, 0.3, 1]},
+        {"name": "Lid", "mesh": 0, "translation": [0, 0, 5], "scale": [1.5, 1.5, 1]},
+        {"name": "Ground", "mesh": 0, "translation": [0, 0, -1], "scale": [3, 3, 1]},
+    ]
+    document["scenes"][0]["nodes"] += [4, 5, 6]
+    return document
+
+
+def test_the_contract_of_virtual_point_lights(statistics, tmp_path):
+    scene = gltf_scenes.write_glb(tmp_path / "occluded.glb", occluded())
+    stats = statistics("--frames", "12", "--vpls", "30", "--bounces", "2", "--bounce-vpls", "16", "--points", "100",
+                       "--large-triangles", "off", "--near-field", "off", "--measure-removed", of=scene)
+    settings = stats["settings"]
+    assert settings["technique"] == "ism"
+    assert (settings["vpls"], settings["bounces"], settings["bounce_vpls"]) == (30, 2, 16)
+    assert (settings["visibility"], settings["splat"], settings["ism_size"]) == ("ism", "disks", 64)
+    counts = stats["counts"]
+    assert counts["vpls"] == 32 + 16, "whole blocks of 4 x 4 pixels"
+    assert counts["points_a_map"] == 100
+    assert counts["points"] == 3200, "each map its own"
+    assert counts["large_triangles"] == 0
+    assert counts["map_size"] == 64
+    assert counts["atlas"] == [6 * 64, 6 * 64], "32 maps"
+    removed = stats["frames"][0]["removed"]
+    assert removed["indirect_mean"] > 0
+    assert removed["removed_mean"] >= 0
+    assert removed["bias"] == pytest.approx(-removed["removed_mean"] / (removed["indirect_mean"] + removed["removed_mean"]))
+    assert stats["notes"] == []
+
+
+def test_large_triangles_are_counted(statistics, tmp_path):
+    scene = gltf_scenes.write_glb(tmp_path / "occluded.glb", occluded())
+    counts = statistics("--frames", "12", of=scene)["counts"]
+    assert counts["large_triangles"] > 0
+
+
+def no_triangle(document):
+    del document["nodes"][0]["mesh"]
+
+
+def no_lit_surface(document):
+    document["nodes"][3]["translation"] = [0, 0, -3]  # it shines down, away from the square
+
+
+def no_light(document):
+    del document["nodes"][3]["extensions"], document["animations"]
+    document["extensions"]["BOUNCE_scene"]["lights"] = []
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [(no_triangle, "has a triangle"), (no_lit_surface, "no light reaches a surface"), (no_light, "no light sends light")],
+)
+@pytest.mark.parametrize("bounces", [1, 3])
+def test_a_scene_without_bounced_light_is_drawn_and_says_so(render, tmp_path, change, words, bounces):
+    document = gltf_scenes.lit_square()
+    change(document)
+    scene = gltf_scenes.write_glb(tmp_path / "poor.glb", document)
+    result = render(scene, "-o", "a.png", "--frames", "35", "--stats", "s.json", "--bounces", bounces)
+    assert result.returncode == 0, result.stderr
+    assert [line for line in result.stderr.splitlines() if line.startswith("note: no bounced light") and words in line]
+    stats = json.loads((tmp_path / "s.json").read_text())
+    assert [item for item in stats["left_out"] if words in item["reason"]]
+    assert any(words in note for note in stats["notes"])
+    assert (tmp_path / "a.png").stat().st_size > 0
 
 
 def test_frames_of_a_blender_file_are_blenders(statistics):

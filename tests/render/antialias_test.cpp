@@ -91,9 +91,9 @@ scene::Scene lit_from_above() {
     return scene;
 }
 
-// Four samples a pixel know coverage to an eighth of a step, where the filter mixes in the neighbours' samples: a fifth of a
-// step at worst (the tip of a corner). One sample a pixel is wrong by 0.29 of a step in the mean over an outline's
-// pixels, four by about a third of that.
+// Four samples a pixel know coverage to an eighth of a step, where the filter mixes in the neighbours'
+// samples: a fifth of a step at worst (the tip of a corner). One sample a pixel is wrong by 0.29 of a step in
+// the mean over an outline's pixels, four by about a third of that.
 TEST_F(Antialias, AnOutlineBeforeNothingIsFilteredAsByCycles) {
     scene::Scene scene = lit_from_above();
     add_mesh_node(scene, add_square(scene, 2.0F, add_diffuse(scene)), turned(13.0, 0.0));
@@ -123,8 +123,9 @@ TEST_F(Antialias, TwoWallsOfARoofMeetSmoothly) {
         const int mesh = add_square(scene, 4.0F, add_diffuse(scene, glm::vec3(side < 0.0 ? 0.9F : 0.1F)));
         // Half of a square, hinged at the ridge, falls off to its side by 45 degrees; the ridge runs askew.
         const glm::dmat4 tilt = glm::rotate(glm::dmat4(1.0), side * pi / 4.0, glm::dvec3(0.0, 1.0, 0.0));
-        add_mesh_node(scene, mesh,
-                      turned(7.0, 3.0) * tilt * glm::translate(glm::dmat4(1.0), glm::dvec3(side * 2.0, 0.0, 0.0)));
+        add_mesh_node(
+            scene, mesh,
+            turned(7.0, 3.0) * tilt * glm::translate(glm::dmat4(1.0), glm::dvec3(side * 2.0, 0.0, 0.0)));
     }
     const Errors errors = compare_with_filtered(scene, camera_from_above(2.5, 10.0));
     EXPECT_LT(errors.smooth_rms, 0.35 * errors.rough_rms);

@@ -15,6 +15,7 @@ class ExecutedPasses : public ::testing::Test {
     static std::vector<std::string> run(const scene::Scene& scene, Settings settings) {
         settings.width = 32;
         settings.height = 32;
+        settings.antialias = false;  // tests/render/antialias_test.cpp has its passes
         return draw(scene, camera_from_above(4.0, 10.0), settings).report.executed;
     }
     static scene::Scene floor() {

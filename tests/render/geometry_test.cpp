@@ -14,6 +14,7 @@ class Geometry : public ::testing::Test {
         Settings s;
         s.width = s.height = size;
         s.technique = Technique::direct;
+        s.antialias = false;  // shares of pixels are counted
         return s;
     }
     // Lit from everywhere alike: what is drawn is white, what is not is black.

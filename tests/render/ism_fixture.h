@@ -109,6 +109,7 @@ inline Settings bounced(int size) {
     settings.width = settings.height = size;
     settings.technique = Technique::ism;
     settings.show = Show::indirect;
+    settings.antialias = false;  // pixel by pixel
     return settings;
 }
 

@@ -46,6 +46,7 @@ Settings small(int samples) {
     settings.technique = Technique::rsm;
     settings.show = Show::indirect;
     settings.rsm_samples = samples;
+    settings.antialias = false;  // pixel by pixel
     settings.interpolate = false;
     return settings;
 }

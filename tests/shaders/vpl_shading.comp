@@ -40,7 +40,7 @@ void test_item() {
     p.profile = 1.0;
     p.area = 0.0;
     GpuVpl vpl = make_vpl(p, 0.25);
-    vec3 sent = vpl_intensity(vpl, v, v.z) / (3.0 * 0.25);
+    vec3 sent = vpl_intensity(vpl, v, v.z, 0.0) / (3.0 * 0.25);
     vec3 exact = diffuse(s, l, v) + specular_times_cosine(s, l, v) / l.z;
     out_value(0, vec4(sent, 0.0));
     out_value(1, vec4(exact, 0.0));
@@ -55,7 +55,7 @@ void test_item() {
     BouncedLight sum;
     sum.irradiance = vec3(0.0);
     sum.glossy = vec3(0.0);
-    add_vpl(white, r, -l, 1.0, l.z, l.z, sum);
+    add_vpl(white, r, -l, 1.0, l.z, l.z, 0.0, sum);
     out_value(2, vec4(diffuse_albedo(s) / PI * sum.irradiance + sum.glossy, 0.0));
     out_value(3, vec4(exact * l.z, 0.0));
 

@@ -19,12 +19,33 @@ struct StateCommands : testing::Test {
 };
 
 TEST_F(StateCommands, DigitsChooseWhatIsShown) {
-    const Show shows[] = {Show::shaded,       Show::direct,     Show::indirect, Show::rsm_depth,
-                          Show::rsm_position, Show::rsm_normal, Show::rsm_flux, Show::interpolation};
+    const Show shows[] = {Show::shaded,    Show::direct,        Show::indirect,
+                          Show::rsm_depth, Show::rsm_position,  Show::rsm_normal,
+                          Show::rsm_flux,  Show::interpolation, Show::vpls};
     char32_t digit = U'1';
     for (const Show show : shows) {
         EXPECT_EQ(press(digit++), Effect::picture_changed);
         EXPECT_EQ(state.settings.show, show);
+    }
+    press(U'm');
+    EXPECT_EQ(state.settings.show, Show::ism);
+    press(U'v');
+    EXPECT_EQ(state.settings.show, Show::vpl_visibility);
+}
+
+TEST_F(StateCommands, LightsAndBouncesGoRoundThroughAll) {
+    state.settings.vpls = 32;  // two whole blocks of 4 x 4
+    state.settings.bounces = 2;
+    EXPECT_EQ(press(U'.'), Effect::picture_changed);
+    EXPECT_EQ(state.settings.shown_vpl, 0);
+    press(U',');
+    press(U',');
+    EXPECT_EQ(state.settings.shown_vpl, 31);
+    press(U'.');
+    EXPECT_EQ(state.settings.shown_vpl, -1);
+    for (const int bounce : {1, 2, 0}) {
+        press(U'b');
+        EXPECT_EQ(state.settings.shown_bounce, bounce);
     }
 }
 
@@ -46,9 +67,11 @@ TEST_F(StateCommands, LayersOfDataAreShownWithoutTheScenesLook) {
 
 TEST_F(StateCommands, TogglesGoBothWays) {
     press(U't');
-    EXPECT_EQ(state.settings.technique, Technique::direct);
-    press(U'T');
     EXPECT_EQ(state.settings.technique, Technique::rsm);
+    press(U'T');
+    EXPECT_EQ(state.settings.technique, Technique::direct);
+    press(U't');
+    EXPECT_EQ(state.settings.technique, Technique::ism);
     press(U'i');
     EXPECT_FALSE(state.settings.interpolate);
     press(U'h');
@@ -62,9 +85,10 @@ TEST_F(StateCommands, SaysWhyALayerIsMissing) {
     press(U'7');
     EXPECT_TRUE(why_not_shown(state.settings, 1).empty());
     EXPECT_FALSE(why_not_shown(state.settings, 0).empty());
+    press(U'9');
+    EXPECT_TRUE(why_not_shown(state.settings, 1).empty());
     press(U't');
-    EXPECT_FALSE(why_not_shown(state.settings, 1).empty());
-    press(U't');
+    EXPECT_FALSE(why_not_shown(state.settings, 1).empty()) << "rsm has no virtual point lights";
     press(U'8');
     EXPECT_TRUE(why_not_shown(state.settings, 1).empty());
     press(U'i');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/preview_run.h"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -19,15 +20,45 @@ using testing::HasSubstr;
 
 const PreviewRun k_run{"RSM", "112 samples", {"--technique", "rsm", "--rsm-samples", "112"}};
 
-TEST(PreviewRuns, AreDirectAndFourSampleCountsTwice) {
-    const auto runs = default_preview_runs();
-    ASSERT_EQ(runs.size(), 9U);
-    EXPECT_EQ(runs[0].render_arguments, (std::vector<std::string>{"--technique", "direct"}));
-    std::set<std::pair<std::string, std::string>> names;
+// Names and labels of the runs, which tell the points of a report apart.
+std::vector<std::pair<std::string, std::string>> names_of(const std::vector<PreviewRun>& runs) {
+    std::vector<std::pair<std::string, std::string>> names;
     for (const PreviewRun& run : runs) {
-        names.emplace(run.name, run.label);
+        names.emplace_back(run.name, run.label);
     }
-    EXPECT_EQ(names.size(), runs.size()) << "two points could not be told apart";
+    return names;
+}
+
+bool has(const PreviewRun& run, const std::string& option, const std::string& value) {
+    const auto& all = run.render_arguments;
+    const auto found = std::find(all.begin(), all.end(), option);
+    return found != all.end() && found + 1 != all.end() && *(found + 1) == value;
+}
+
+TEST(PreviewRuns, AreDirectRsmAndLightsWithAndWithoutMaps) {
+    const auto runs = default_preview_runs(1);
+    EXPECT_EQ(runs[0].render_arguments, (std::vector<std::string>{"--technique", "direct"}));
+    const auto names = names_of(runs);
+    EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size())
+        << "two points could not be told apart";
+    for (const char* vpls : {"64 VPLs", "128 VPLs", "256 VPLs", "512 VPLs", "1024 VPLs"}) {
+        EXPECT_THAT(names, testing::Contains(std::pair<std::string, std::string>("ISM", vpls)));
+    }
+    for (const PreviewRun& run : runs) {
+        EXPECT_FALSE(has(run, "--bounces", "1")) << "the default";
+        EXPECT_EQ(has(run, "--visibility", "none"), run.name == "VPLs, not occluded") << run.name;
+    }
+}
+
+TEST(PreviewRuns, FollowTheReferencesBounces) {
+    const auto two = default_preview_runs(2);
+    const auto names = names_of(two);
+    EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
+    EXPECT_THAT(names, testing::Contains(std::pair<std::string, std::string>("ISM, 2 bounces", "256 VPLs")));
+    EXPECT_THAT(names, testing::Contains(std::pair<std::string, std::string>("ISM, one bounce", "256 VPLs")));
+    EXPECT_TRUE(has(two.back(), "--bounces", "2"));
+    EXPECT_TRUE(has(default_preview_runs(9).back(), "--bounces", "4")) << "the most that bounce render draws";
+    EXPECT_EQ(default_preview_runs(0).size(), 1U) << "direct light is all that such a reference has";
 }
 
 TEST(RunPreview, PassesArgumentsAndReadsStats) {

@@ -32,6 +32,7 @@ class FramePlanTest : public testing::Test {
         mesh.mesh = 0;
         add_node(mesh);
         add_light("Key", scene::LightType::spot);
+        settings_.technique = Technique::rsm;
     }
     void add_node(const scene::Node& node) {
         scene_.topological_order.push_back(static_cast<int>(scene_.nodes.size()));
@@ -68,6 +69,7 @@ class FramePlanTest : public testing::Test {
 };
 
 TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
+    settings_ = {};
     const FramePlan p = plan();
     EXPECT_TRUE(p.direct);
     EXPECT_TRUE(p.indirect);
@@ -83,7 +85,6 @@ TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
 }
 
 TEST_F(FramePlanTest, TheReflectiveShadowMapAloneIsInterpolated) {
-    settings_.technique = Technique::rsm;
     settings_.bounces = 3;
     const FramePlan p = plan();
     EXPECT_TRUE(p.indirect);
@@ -93,19 +94,6 @@ TEST_F(FramePlanTest, TheReflectiveShadowMapAloneIsInterpolated) {
     EXPECT_FALSE(p.near_field);
     EXPECT_EQ(p.bounces, 0) << "of virtual point lights";
     EXPECT_EQ(reason(p, "rsm interpolate"), "");
-}
-
-TEST_F(FramePlanTest, WhatVirtualPointLightsAreAskedFor) {
-    settings_.visibility = Visibility::none;
-    settings_.near_field = false;
-    settings_.glossy_bounces = false;
-    settings_.bounces = 4;
-    const FramePlan p = plan();
-    EXPECT_TRUE(p.vpls);
-    EXPECT_FALSE(p.occluded);
-    EXPECT_FALSE(p.near_field);
-    EXPECT_FALSE(p.glossy);
-    EXPECT_EQ(p.bounces, 4);
 }
 
 TEST_F(FramePlanTest, DirectTechniqueLeavesTheBounceOutAsAskedFor) {
@@ -188,6 +176,69 @@ TEST_F(FramePlanTest, SurfacesThatReflectNothingDiffuselyBounceNothing) {
     EXPECT_FALSE(plan().indirect);
 }
 
+TEST_F(FramePlanTest, VirtualPointLightsNeedWhatTheirSettingsSay) {
+    settings_ = {.bounces = 3};
+    FramePlan p = plan();
+    EXPECT_TRUE(p.vpls && p.occluded && p.near_field && p.glossy);
+    EXPECT_FALSE(p.interpolate);
+    EXPECT_EQ(p.bounces, 3);
+    EXPECT_TRUE(p.notes.empty());
+    settings_ = {.visibility = Visibility::none, .near_field = false, .glossy_bounces = false};
+    p = plan();
+    EXPECT_TRUE(p.vpls);
+    EXPECT_FALSE(p.occluded || p.near_field || p.glossy);
+    settings_ = {.show = Show::rsm_flux};
+    EXPECT_TRUE(plan().indirect);
+    EXPECT_FALSE(plan().vpls) << "a layer of maps alone needs no lights drawn from them";
+}
+
+TEST_F(FramePlanTest, LayersLeaveOutTheLightThatTheyDoNotShow) {
+    for (const Show show :
+         {Show::ism, Show::ism_splats, Show::vpl_visibility, Show::unblurred, Show::removed}) {
+        settings_ = {.show = show};
+        EXPECT_FALSE(plan().direct);
+        EXPECT_TRUE(plan().vpls);
+        EXPECT_FALSE(plan().world_light);
+    }
+    settings_ = {.show = Show::vpls};
+    EXPECT_TRUE(plan().direct) << "the picture under the dots";
+}
+
+TEST_F(FramePlanTest, SaysWhyThereIsNoBouncedLight) {
+    const auto note = [&] {
+        const FramePlan p = plan();
+        EXPECT_FALSE(p.indirect);
+        EXPECT_TRUE(p.direct || p.lights.empty());
+        return p.notes.empty() ? std::string() : p.notes.front();
+    };
+    settings_ = {.bounces = 4};
+    scene_.lights[0].power_w = 0.0F;
+    EXPECT_THAT(note(), HasSubstr("no light sends light"));
+    scene_.lights[0].power_w = 10.0F;
+    const scene::Scene whole = scene_;
+    scene_.nodes[0].visible = false;
+    EXPECT_THAT(note(), HasSubstr("has a triangle"));
+    scene_ = whole;
+    scene_.meshes[0].primitives[0].indices.clear();
+    EXPECT_THAT(note(), HasSubstr("has a triangle"));
+    scene_ = whole;
+    scene_.materials[0].base_color = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+    EXPECT_THAT(note(), HasSubstr("reflects light"));
+    settings_.show = Show::direct;
+    EXPECT_EQ(note(), "") << "nobody asked for it";
+}
+
+TEST_F(FramePlanTest, MetalsBounceLightByTheirGlossyLobes) {
+    settings_ = {};
+    scene_.materials[0].metallic = 1.0F;
+    EXPECT_TRUE(plan().vpls);
+    settings_.glossy_bounces = false;
+    EXPECT_FALSE(plan().vpls) << "metal reflects nothing diffusely";
+    settings_.glossy_bounces = true;
+    scene_.meshes[0].primitives[0].material = scene::k_none;
+    EXPECT_TRUE(plan().vpls) << "glTF's default is white metal";
+}
+
 TEST_F(FramePlanTest, AMetallicTextureMayLeaveDiffuseParts) {
     // glTF multiplies the factor 1 (its default) by the texture: most textured models have it.
     scene_.materials[0].metallic = 1.0F;
@@ -204,9 +255,9 @@ TEST_F(FramePlanTest, InterpolationIsOffWhereEveryPixelIsAskedFor) {
         EXPECT_FALSE(p.interpolate);
         EXPECT_THAT(reason(p, "rsm interpolate"), HasSubstr("every pixel"));
     };
-    is_off({.interpolate = false});
-    is_off({.lowres_step = 1});
-    is_off({.rsm_full_sum = true});
+    is_off({.technique = Technique::rsm, .interpolate = false});
+    is_off({.technique = Technique::rsm, .lowres_step = 1});
+    is_off({.technique = Technique::rsm, .rsm_full_sum = true});
 }
 
 TEST_F(FramePlanTest, NothingDeformsWithoutSkinOrMorph) {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/option_conflicts.h"
+
+#include <initializer_list>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "renderer/setting_names.h"
+
+namespace bounce::cli {
+namespace {
+
+// An option's name and whether it was given.
+using Given = std::pair<const char*, bool>;
+
+const char* first_given(std::initializer_list<Given> options) {
+    for (const auto& [name, given] : options) {
+        if (given) {
+            return name;
+        }
+    }
+    return nullptr;
+}
+
+// Options of technique rsm alone.
+const char* gather_option(const RenderOptions& o) {
+    return first_given({{"--rsm-samples", o.samples.has_value()},
+                        {"--rsm-pattern", o.pattern.has_value()},
+                        {"--rsm-interpolation", o.interpolate.has_value()},
+                        {"--rsm-lowres", o.lowres.has_value()}});
+}
+
+// Options of how imperfect shadow maps are drawn.
+const char* splat_option(const RenderOptions& o) {
+    return first_given({{"--points", o.points.has_value()},
+                        {"--splat", o.splat.has_value()},
+                        {"--large-triangles", o.large_triangles.has_value()},
+                        {"--hull", o.hull.has_value()},
+                        {"--pull-push", o.pull_push.has_value()},
+                        {"--pull-push-levels", o.pull_push_levels.has_value()},
+                        {"--pull-threshold", o.pull_threshold.has_value()},
+                        {"--push-threshold", o.push_threshold.has_value()}});
+}
+
+const char* bounce_option(const RenderOptions& o) {
+    return first_given(
+        {{"--bounce-vpls", o.bounce_vpls.has_value()}, {"--bounce-source", o.bounce_source.has_value()}});
+}
+
+const char* vpl_option(const RenderOptions& o) {
+    const char* maps =
+        first_given({{"--visibility", o.visibility.has_value()}, {"--ism-size", o.ism_size.has_value()}});
+    const char* lights = first_given({{"--vpls", o.vpls.has_value()},
+                                      {"--bounces", o.bounces.has_value()},
+                                      {"--interleave", o.interleave.has_value()},
+                                      {"--near-field", o.near_field.has_value()},
+                                      {"--glossy", o.glossy.has_value()}});
+    for (const char* option : {lights, maps, splat_option(o), bounce_option(o)}) {
+        if (option != nullptr) {
+            return option;
+        }
+    }
+    return nullptr;
+}
+
+std::string technique_conflict(const RenderOptions& o, const Settings& s) {
+    if (o.technique && o.preset && *o.preset != "auto") {
+        return fmt::format("--technique and --preset {} both choose the technique; give one of them",
+                           *o.preset);
+    }
+    if (const char* option = vpl_option(o); option != nullptr && s.technique != Technique::ism) {
+        return fmt::format("{} is of virtual point lights, which technique {} does not have", option,
+                           name_of(s.technique));
+    }
+    if (const char* option = gather_option(o); option != nullptr && s.technique != Technique::rsm) {
+        return fmt::format("{} has no effect with technique {}; it is an option of --technique rsm", option,
+                           name_of(s.technique));
+    }
+    return {};
+}
+
+std::string map_conflict(const RenderOptions& o, const Settings& s) {
+    const char* splats = splat_option(o);
+    const char* maps = o.ism_size ? "--ism-size" : splats;
+    if (s.visibility == Visibility::none && maps != nullptr) {
+        return fmt::format(
+            "{} has no effect with --visibility none, which draws no shadow maps of virtual point lights",
+            maps);
+    }
+    if (s.visibility == Visibility::shadow_maps && splats != nullptr) {
+        return fmt::format(
+            "{} has no effect with --visibility shadow-maps, which draws triangles, not points", splats);
+    }
+    const bool disks = s.splat == Splat::disks;
+    if (!disks && o.large_triangles) {
+        return fmt::format(
+            "--large-triangles has no effect with --splat {}; it is an option of --splat disks",
+            name_of(s.splat));
+    }
+    const char* pull_push =
+        first_given({{"--pull-push", o.pull_push.has_value() && s.pull_push != PullPush::off},
+                     {"--pull-push-levels", o.pull_push_levels.has_value()},
+                     {"--pull-threshold", o.pull_threshold.has_value()},
+                     {"--push-threshold", o.push_threshold.has_value()}});
+    if (pull_push != nullptr && disks) {
+        return fmt::format("{} needs --splat compute or points: disks leave no holes to be filled",
+                           pull_push);
+    }
+    if (pull_push != nullptr && s.pull_push == PullPush::off) {
+        return fmt::format("{} has no effect with --pull-push off", pull_push);
+    }
+    if (o.push_threshold && s.pull_push == PullPush::fill) {
+        return "--push-threshold needs --pull-push paper: fill replaces no depth that is there";
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string option_conflict(const RenderOptions& o, const Settings& s) {
+    if (std::string conflict = technique_conflict(o, s); !conflict.empty()) {
+        return conflict;
+    }
+    if (s.rsm_full_sum && (o.pattern || (o.interpolate && *o.interpolate) || o.lowres)) {
+        return "--rsm-samples all evaluates every texel in every pixel: without a pattern and without "
+               "interpolation";
+    }
+    if (o.lowres && !s.interpolate) {
+        return "--rsm-lowres has no effect with --rsm-interpolation off";
+    }
+    if (s.technique != Technique::ism) {
+        return {};
+    }
+    if (const char* option = bounce_option(o); option != nullptr && s.bounces == 1) {
+        return fmt::format("{} is of further bounces; give --bounces 2 or more", option);
+    }
+    return map_conflict(o, s);
+}
+
+}  // namespace bounce::cli

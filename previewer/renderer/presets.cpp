@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/presets.h"
+
+namespace bounce {
+
+Settings preset_settings(Preset preset) {
+    Settings out;
+    switch (preset) {
+        case Preset::automatic:
+            break;
+        case Preset::rsm2005:
+            out.technique = Technique::rsm;
+            break;
+        case Preset::ism2008:
+            // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with
+            // 4,096 points (their P = N_res / 4, and Table 1), two levels and 5 % of the scene's extent, 4 x
+            // 4 pixels.
+            out.technique = Technique::ism;
+            out.vpls = 1024;
+            out.bounce_vpls = 256;
+            out.ism_size = 128;
+            out.ism_points = 4096;
+            out.splat = Splat::points;
+            out.pull_push = PullPush::paper;
+            out.pull_push_levels = 2;
+            out.pull_threshold = out.push_threshold = 0.05F;
+            out.interleave = 4;
+            out.splat_irsms = true;
+            out.large_triangles = false;
+            out.drop_hull = false;
+            out.near_field = false;
+            out.glossy_bounces = false;
+            break;
+    }
+    return out;
+}
+
+}  // namespace bounce

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/settings.h"
+
+namespace bounce {
+
+// Settings that belong together.
+enum class Preset {
+    automatic,  // ours
+    rsm2005,    // Dachsbacher and Stamminger 2005, "Reflective Shadow Maps"
+    ism2008,    // Ritschel et al. 2008, "Imperfect Shadow Maps for Efficient Computation of Indirect
+                // Illumination"
+};
+
+[[nodiscard]] Settings preset_settings(Preset preset);
+
+}  // namespace bounce

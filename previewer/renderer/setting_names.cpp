@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/setting_names.h"
+
+namespace bounce {
+
+template <>
+const std::map<std::string, Technique>& setting_names<Technique>() {
+    static const std::map<std::string, Technique> names = {
+        {"direct", Technique::direct}, {"rsm", Technique::rsm}, {"ism", Technique::ism}};
+    return names;
+}
+
+template <>
+const std::map<std::string, Visibility>& setting_names<Visibility>() {
+    static const std::map<std::string, Visibility> names = {
+        {"none", Visibility::none}, {"ism", Visibility::ism}, {"shadow-maps", Visibility::shadow_maps}};
+    return names;
+}
+
+template <>
+const std::map<std::string, Splat>& setting_names<Splat>() {
+    static const std::map<std::string, Splat> names = {
+        {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+    return names;
+}
+
+template <>
+const std::map<std::string, PullPush>& setting_names<PullPush>() {
+    static const std::map<std::string, PullPush> names = {
+        {"off", PullPush::off}, {"fill", PullPush::fill}, {"paper", PullPush::paper}};
+    return names;
+}
+
+template <>
+const std::map<std::string, Show>& setting_names<Show>() {
+    static const std::map<std::string, Show> names = {{"shaded", Show::shaded},
+                                                      {"direct", Show::direct},
+                                                      {"indirect", Show::indirect},
+                                                      {"rsm-depth", Show::rsm_depth},
+                                                      {"rsm-position", Show::rsm_position},
+                                                      {"rsm-normal", Show::rsm_normal},
+                                                      {"rsm-flux", Show::rsm_flux},
+                                                      {"interpolation", Show::interpolation},
+                                                      {"vpls", Show::vpls},
+                                                      {"ism-splats", Show::ism_splats},
+                                                      {"ism", Show::ism},
+                                                      {"vpl-visibility", Show::vpl_visibility},
+                                                      {"unblurred", Show::unblurred},
+                                                      {"removed", Show::removed}};
+    return names;
+}
+
+template <>
+const std::map<std::string, passes::RsmPattern>& setting_names<passes::RsmPattern>() {
+    static const std::map<std::string, passes::RsmPattern> names = {
+        {"inverse-square", passes::RsmPattern::inverse_square},
+        {"uniform-radius", passes::RsmPattern::uniform_radius},
+        {"paper-literal", passes::RsmPattern::paper_literal}};
+    return names;
+}
+
+}  // namespace bounce

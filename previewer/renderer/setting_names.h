@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What settings with a few values are called: on the command line, in statistics and in messages.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "renderer/settings.h"
+
+namespace bounce {
+
+// For Technique, Visibility, Splat, PullPush, Show and passes::RsmPattern.
+template <typename T>
+[[nodiscard]] const std::map<std::string, T>& setting_names();
+
+template <typename T>
+[[nodiscard]] std::string name_of(T value) {
+    for (const auto& [name, named] : setting_names<T>()) {
+        if (named == value) {
+            return name;
+        }
+    }
+    return {};
+}
+
+template <>
+[[nodiscard]] const std::map<std::string, Technique>& setting_names<Technique>();
+template <>
+[[nodiscard]] const std::map<std::string, Visibility>& setting_names<Visibility>();
+template <>
+[[nodiscard]] const std::map<std::string, Splat>& setting_names<Splat>();
+template <>
+[[nodiscard]] const std::map<std::string, PullPush>& setting_names<PullPush>();
+template <>
+[[nodiscard]] const std::map<std::string, Show>& setting_names<Show>();
+template <>
+[[nodiscard]] const std::map<std::string, passes::RsmPattern>& setting_names<passes::RsmPattern>();
+
+}  // namespace bounce

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/settings_check.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "renderer/ism_layout.h"
+#include "renderer/setting_names.h"
+
+namespace bounce {
+namespace {
+
+// The sentence where a value lies outside low to high.
+std::string out_of(const char* setting, int value, int low, int high, const char* what) {
+    if (value >= low && value <= high) {
+        return {};
+    }
+    return fmt::format("{} is {}; {} from {} to {}", setting, value, what, low, high);
+}
+
+std::string threshold_refusal(const char* setting, float value) {
+    if (value >= 0.0F && value <= 1.0F) {
+        return {};
+    }
+    return fmt::format("{} is {:g}; give a part of the scene's extent from 0 to 1", setting, value);
+}
+
+std::string map_size_refusal(const char* setting, int size) {
+    return out_of(setting, size, k_least_map_size, k_most_map_size, "give a number");
+}
+
+std::string ism_refusal(const Settings& s) {
+    for (const std::string& refusal :
+         {out_of("--vpls", s.vpls, 1, k_most_vpls, "give a number"),
+          out_of("--bounces", s.bounces, 1, k_most_bounces, "give a number"),
+          out_of("--bounce-vpls", s.bounce_vpls, 1, k_most_vpls, "give a number")}) {
+        if (!refusal.empty()) {
+            return refusal;
+        }
+    }
+    if (s.ism_size < k_least_ism_size || s.ism_size > k_most_ism_size ||
+        !std::has_single_bit(static_cast<unsigned>(s.ism_size))) {
+        return fmt::format("--ism-size is {}; give a power of two from {} to {}", s.ism_size,
+                           k_least_ism_size, k_most_ism_size);
+    }
+    if (s.ism_points < 0 || s.ism_points > k_most_points_a_map) {
+        return fmt::format("--points is {}; give a number from 1 to {}, or auto", s.ism_points,
+                           k_most_points_a_map);
+    }
+    if (s.interleave < 1 || s.interleave > 16 || !std::has_single_bit(static_cast<unsigned>(s.interleave))) {
+        return fmt::format("--interleave is {}; it may be 1, 2, 4, 8 or 16", s.interleave);
+    }
+    for (const std::string& refusal :
+         {out_of("--pull-push-levels", s.pull_push_levels, 1, 3, "give a number"),
+          threshold_refusal("--pull-threshold", s.pull_threshold),
+          threshold_refusal("--push-threshold", s.push_threshold)}) {
+        if (!refusal.empty()) {
+            return refusal;
+        }
+    }
+    return {};
+}
+
+// The largest map size at which an atlas of so many maps fits; 0 where none does.
+int fitting_size(int columns, int texture_size) {
+    int size = k_most_ism_size;
+    while (size >= k_least_ism_size && columns * size > texture_size) {
+        size /= 2;
+    }
+    return size >= k_least_ism_size ? size : 0;
+}
+
+std::string atlas_refusal(const Settings& settings, int bounce, const gl::DeviceLimits& limits) {
+    const IsmLayout layout = ism_layout(settings, bounce, 0);
+    if (layout.atlas_width() <= limits.texture_size) {  // no atlas is higher than wide
+        return {};
+    }
+    const char* lights = bounce == 1 ? "--vpls" : "--bounce-vpls";
+    const int columns = limits.texture_size / settings.ism_size;
+    const int size = fitting_size(layout.columns, limits.texture_size);
+    return fmt::format(
+        "{} {} with --ism-size {} makes an atlas {} texels wide; this OpenGL driver holds {}: lower {} to "
+        "{}{}",
+        lights, layout.vpls, settings.ism_size, layout.atlas_width(), limits.texture_size, lights,
+        columns * columns, size > 0 ? fmt::format(", or --ism-size to {}", size) : std::string());
+}
+
+}  // namespace
+
+std::string settings_refusal(const Settings& s) {
+    if (!s.rsm_full_sum && (s.rsm_samples < 1 || s.rsm_samples > k_most_rsm_samples)) {
+        return fmt::format("--rsm-samples is {}; give a number from 1 to {}, or all", s.rsm_samples,
+                           k_most_rsm_samples);
+    }
+    for (const std::string& refusal :
+         {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
+          s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
+          map_size_refusal("--shadow-size", s.shadow_size), ism_refusal(s),
+          s.shown_bounce == 0 ? std::string()
+                              : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
+        if (!refusal.empty()) {
+            return refusal;
+        }
+    }
+    const int vpls = ism_layout(s, std::max(s.shown_bounce, 1), 0).vpls;
+    return s.shown_vpl < 0 ? std::string()
+                           : out_of("--vpl", s.shown_vpl, 0, vpls - 1, "this bounce's lights are counted");
+}
+
+std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& limits) {
+    const auto too_large = [&](const char* setting, int size) {
+        return size > limits.texture_size ? fmt::format("{} is {}; this OpenGL driver holds {} at most",
+                                                        setting, size, limits.texture_size)
+                                          : std::string();
+    };
+    std::string refusal;
+    if (settings.technique != Technique::direct) {
+        refusal = too_large("--rsm-size", settings.used_rsm_size());
+    }
+    if (refusal.empty()) {
+        refusal = too_large("--shadow-size", settings.shadow_size);
+    }
+    const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;
+    for (int bounce = 1; maps && refusal.empty() && bounce <= settings.bounces; ++bounce) {
+        refusal = atlas_refusal(settings, bounce, limits);
+    }
+    return refusal;
+}
+
+std::string layer_refusal(const Settings& s) {
+    if (s.show == Show::shaded || s.show == Show::direct) {
+        return {};
+    }
+    if (s.technique == Technique::direct) {
+        return shows_rsm(s.show) ? "technique direct has no reflective shadow maps"
+                                 : "technique direct has no indirect light";
+    }
+    if (s.show == Show::indirect || shows_rsm(s.show)) {
+        return {};
+    }
+    if (s.show == Show::interpolation) {
+        if (s.technique != Technique::rsm) {
+            return "only technique rsm interpolates indirect light";
+        }
+        return s.interpolate && !s.rsm_full_sum ? "" : "interpolation is off";
+    }
+    if (s.technique != Technique::ism) {
+        return fmt::format("technique {} has no virtual point lights", name_of(s.technique));
+    }
+    const bool of_maps = s.show == Show::ism || s.show == Show::ism_splats || s.show == Show::vpl_visibility;
+    if (of_maps && s.visibility == Visibility::none) {
+        return "visibility none has no shadow maps of virtual point lights";
+    }
+    if (s.show == Show::ism_splats && s.visibility == Visibility::shadow_maps) {
+        return "visibility shadow-maps splats nothing";
+    }
+    if (s.show == Show::ism_splats && s.splat == Splat::disks) {
+        return "disks leave no holes, so there is no pull-push to be seen before; layer ism is what they "
+               "draw";
+    }
+    if (s.show == Show::unblurred && s.interleave == 1) {
+        return "with interleave 1 nothing is blurred; layer indirect is the same";
+    }
+    if (s.show == Show::removed && s.near_field && s.bounces == 1) {
+        return "the near field gathers what bounding would take from the first bounce; switch it off, or "
+               "render more bounces";
+    }
+    return {};
+}
+
+}  // namespace bounce

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which settings can be drawn: arithmetic without OpenGL. Sentences name settings as the command line does.
+#pragma once
+
+#include <string>
+
+#include "gl/context.h"
+#include "renderer/settings.h"
+
+namespace bounce {
+
+// Ends of the ranges.
+constexpr int k_most_vpls = 16384;
+constexpr int k_most_points_a_map = 65536;  // a point's place in its map is kept in 16 bits
+constexpr int k_least_ism_size = 32;
+constexpr int k_most_ism_size = 256;
+constexpr int k_most_bounces = 4;
+constexpr int k_most_rsm_samples = 1 << 15;  // llvmpipe ends a loop after 65,535 iterations
+constexpr int k_least_map_size = 2;
+constexpr int k_most_map_size = 16384;
+
+// One sentence that names the first setting out of range, its value and its range; empty where there is none.
+[[nodiscard]] std::string settings_refusal(const Settings& settings);
+
+// The same for what the driver cannot hold: names the setting to lower.
+[[nodiscard]] std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& limits);
+
+// Why the layer that the settings ask for is not there under them; empty where it is.
+[[nodiscard]] std::string layer_refusal(const Settings& settings);
+
+}  // namespace bounce

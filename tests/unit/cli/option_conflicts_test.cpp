@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that were given and would have no effect are refused with the reason; what the defaults say is not.
+#include "cli/option_conflicts.h"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace bounce::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string conflict(const std::function<void(RenderOptions&)>& give, const Settings& settings) {
+    RenderOptions options;
+    give(options);
+    return option_conflict(options, settings);
+}
+
+TEST(OptionConflicts, NothingGivenIsNoConflictWhateverTheSettings) {
+    for (const Technique technique : {Technique::direct, Technique::rsm, Technique::ism}) {
+        for (const Visibility visibility : {Visibility::none, Visibility::ism, Visibility::shadow_maps}) {
+            EXPECT_EQ(option_conflict({}, {.technique = technique, .visibility = visibility}), "");
+        }
+    }
+}
+
+TEST(OptionConflicts, OptionsOfAnotherTechnique) {
+    const Settings rsm{.technique = Technique::rsm};
+    const Settings ism{.technique = Technique::ism};
+    const Settings direct{.technique = Technique::direct};
+    const auto vpls = [](RenderOptions& o) { o.vpls = 64; };
+    const auto samples = [](RenderOptions& o) { o.samples = "64"; };
+    EXPECT_THAT(conflict(vpls, rsm), AllOf(HasSubstr("--vpls"), HasSubstr("technique rsm")));
+    EXPECT_THAT(conflict(vpls, direct), HasSubstr("--vpls"));
+    EXPECT_EQ(conflict(vpls, ism), "");
+    EXPECT_THAT(conflict(samples, ism), AllOf(HasSubstr("--rsm-samples"), HasSubstr("technique ism")));
+    EXPECT_EQ(conflict(samples, rsm), "");
+}
+
+TEST(OptionConflicts, PresetAndTechniqueBothChooseTheTechnique) {
+    const auto both = [](RenderOptions& o) {
+        o.preset = "ism2008";
+        o.technique = "ism";
+    };
+    EXPECT_THAT(conflict(both, {}), AllOf(HasSubstr("--preset ism2008"), HasSubstr("--technique")));
+    EXPECT_EQ(conflict([](RenderOptions& o) { o.preset = "ism2008"; }, {}), "");
+}
+
+TEST(OptionConflicts, MapsThatAreNotDrawn) {
+    const Settings none{.visibility = Visibility::none};
+    const Settings classic{.visibility = Visibility::shadow_maps};
+    const auto points = [](RenderOptions& o) { o.points = "100"; };
+    const auto size = [](RenderOptions& o) { o.ism_size = 64; };
+    EXPECT_THAT(conflict(points, none), AllOf(HasSubstr("--points"), HasSubstr("--visibility none")));
+    EXPECT_THAT(conflict(size, none), HasSubstr("--ism-size"));
+    EXPECT_THAT(conflict(points, classic),
+                AllOf(HasSubstr("--points"), HasSubstr("--visibility shadow-maps")));
+    EXPECT_EQ(conflict(size, classic), "") << "classic maps have a size, too";
+    EXPECT_EQ(conflict(points, {}), "");
+}
+
+TEST(OptionConflicts, PullPushNeedsHoles) {
+    const Settings disks{.splat = Splat::disks};
+    const Settings squares{.splat = Splat::compute};
+    const auto fill = [](RenderOptions& o) { o.pull_push = "fill"; };
+    const auto push = [](RenderOptions& o) { o.push_threshold = 0.1F; };
+    EXPECT_THAT(conflict(fill, disks), HasSubstr("--splat compute or points"));
+    EXPECT_EQ(conflict(fill, squares), "");
+    EXPECT_EQ(conflict([](RenderOptions& o) { o.pull_push = "off"; },
+                       {.splat = Splat::disks, .pull_push = PullPush::off}),
+              "")
+        << "off is what disks have";
+    EXPECT_THAT(conflict([](RenderOptions& o) { o.pull_push_levels = 1; },
+                         {.splat = Splat::compute, .pull_push = PullPush::off}),
+                HasSubstr("--pull-push off"));
+    EXPECT_THAT(conflict(push, squares), HasSubstr("--pull-push paper"));
+    EXPECT_EQ(conflict(push, {.splat = Splat::compute, .pull_push = PullPush::paper}), "");
+    EXPECT_THAT(conflict([](RenderOptions& o) { o.large_triangles = true; }, squares),
+                HasSubstr("--splat disks"));
+}
+
+TEST(OptionConflicts, FurtherBouncesNeedMoreThanOne) {
+    const auto of = [](RenderOptions& o) { o.bounce_vpls = 32; };
+    EXPECT_THAT(conflict(of, {.bounces = 1}), AllOf(HasSubstr("--bounce-vpls"), HasSubstr("--bounces 2")));
+    EXPECT_EQ(conflict(of, {.bounces = 2}), "");
+}
+
+TEST(OptionConflicts, AFullSumHasNoPatternAndNoInterpolation) {
+    const Settings all{.technique = Technique::rsm, .rsm_full_sum = true};
+    EXPECT_THAT(conflict([](RenderOptions& o) { o.pattern = "paper-literal"; }, all),
+                HasSubstr("--rsm-samples all"));
+    EXPECT_EQ(conflict([](RenderOptions& o) { o.interpolate = false; }, all), "");
+    EXPECT_THAT(
+        conflict([](RenderOptions& o) { o.lowres = 4; }, {.technique = Technique::rsm, .interpolate = false}),
+        HasSubstr("--rsm-interpolation off"));
+}
+
+}  // namespace
+}  // namespace bounce::cli

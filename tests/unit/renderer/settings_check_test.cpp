@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/settings_check.h"
+
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/presets.h"
+#include "renderer/setting_names.h"
+
+namespace bounce {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void(Settings&)>& change) {
+    Settings settings;
+    change(settings);
+    return settings_refusal(settings);
+}
+
+// Refused just outside both ends, and not on them.
+void expect_range(const std::string& name, int low, int high,
+                  const std::function<void(Settings&, int)>& give) {
+    for (const int wrong : {low - 1, high + 1}) {
+        EXPECT_THAT(refusal([&](Settings& s) { give(s, wrong); }),
+                    AllOf(HasSubstr(name + " is " + std::to_string(wrong)), HasSubstr(std::to_string(high))));
+    }
+    for (const int right : {low, high}) {
+        EXPECT_EQ(refusal([&](Settings& s) { give(s, right); }), "") << name << " " << right;
+    }
+}
+
+TEST(SettingsRefusal, EveryPresetCanBeDrawn) {
+    for (const Preset preset : {Preset::automatic, Preset::rsm2005, Preset::ism2008}) {
+        EXPECT_EQ(settings_refusal(preset_settings(preset)), "");
+        EXPECT_EQ(limits_refusal(preset_settings(preset), {}), "");
+        EXPECT_EQ(layer_refusal(preset_settings(preset)), "");
+    }
+}
+
+TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
+    expect_range("--vpls", 1, 16384, [](Settings& s, int v) { s.vpls = v; });
+    expect_range("--bounces", 1, 4, [](Settings& s, int v) { s.bounces = v; });
+    expect_range("--bounce-vpls", 1, 16384, [](Settings& s, int v) { s.bounce_vpls = v; });
+    expect_range("--points", 0, 65536, [](Settings& s, int v) { s.ism_points = v; });
+    expect_range("--pull-push-levels", 1, 3, [](Settings& s, int v) { s.pull_push_levels = v; });
+    expect_range("--rsm-samples", 1, 32768, [](Settings& s, int v) { s.rsm_samples = v; });
+    expect_range("--rsm-lowres", 2, 64, [](Settings& s, int v) { s.lowres_step = v; });
+    expect_range("--shadow-size", 2, 16384, [](Settings& s, int v) { s.shadow_size = v; });
+    EXPECT_THAT(refusal([](Settings& s) { s.rsm_size = 1; }), HasSubstr("--rsm-size is 1"));
+    EXPECT_EQ(refusal([](Settings& s) { s.rsm_size = 0; }), "") << "automatic";
+}
+
+TEST(SettingsRefusal, MapSizesArePowersOfTwo) {
+    for (const int wrong : {-64, 0, 16, 33, 96, 255, 512}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.ism_size = wrong; }),
+                    AllOf(HasSubstr("--ism-size"), HasSubstr("power of two from 32 to 256")))
+            << wrong;
+    }
+    for (const int right : {32, 64, 128, 256}) {
+        EXPECT_EQ(refusal([&](Settings& s) { s.ism_size = right; }), "");
+    }
+}
+
+TEST(SettingsRefusal, InterleaveIsOneOfFive) {
+    for (const int wrong : {-1, 0, 3, 5, 12, 32}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.interleave = wrong; }), HasSubstr("1, 2, 4, 8 or 16"))
+            << wrong;
+    }
+    for (const int right : {1, 2, 4, 8, 16}) {
+        EXPECT_EQ(refusal([&](Settings& s) { s.interleave = right; }), "");
+    }
+}
+
+TEST(SettingsRefusal, ThresholdsArePartsOfTheScenesExtent) {
+    for (const float wrong : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.pull_threshold = wrong; }), HasSubstr("--pull-threshold"));
+        EXPECT_THAT(refusal([&](Settings& s) { s.push_threshold = wrong; }), HasSubstr("--push-threshold"));
+    }
+}
+
+TEST(SettingsRefusal, ShownLightAndBounceAreThere) {
+    const auto shown = [](int vpl, int bounce) {
+        return refusal([&](Settings& s) {
+            s.vpls = 20;  // in 4 x 4 subsets: 32
+            s.bounce_vpls = 16;
+            s.bounces = 2;
+            s.shown_vpl = vpl;
+            s.shown_bounce = bounce;
+        });
+    };
+    EXPECT_EQ(shown(-1, 0), "");
+    EXPECT_EQ(shown(31, 1), "");
+    EXPECT_THAT(shown(32, 0), AllOf(HasSubstr("--vpl is 32"), HasSubstr("to 31")));
+    EXPECT_THAT(shown(16, 2), HasSubstr("to 15"));
+    EXPECT_THAT(shown(0, 3), HasSubstr("--bounce is 3"));
+}
+
+TEST(LimitsRefusal, AnAtlasThatTheDriverCannotHoldNamesWhatToLower) {
+    Settings settings{.vpls = 4096, .ism_size = 256};  // 64 x 64 maps: 16,384 texels
+    EXPECT_EQ(limits_refusal(settings, {.texture_size = 16384}), "");
+    const std::string sentence = limits_refusal(settings, {.texture_size = 8192});
+    EXPECT_THAT(sentence, AllOf(HasSubstr("16384 texels"), HasSubstr("lower --vpls to 1024"),
+                                HasSubstr("--ism-size to 128")));
+    // What it advises is let through.
+    EXPECT_EQ(limits_refusal({.vpls = 1024, .ism_size = 256}, {.texture_size = 8192}), "");
+    EXPECT_EQ(limits_refusal({.vpls = 4096, .ism_size = 128}, {.texture_size = 8192}), "");
+    settings.visibility = Visibility::none;
+    EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "") << "no maps";
+    settings = {.bounces = 2, .bounce_vpls = 4096, .ism_size = 256};
+    EXPECT_THAT(limits_refusal(settings, {.texture_size = 8192}), HasSubstr("lower --bounce-vpls to 1024"));
+    settings.bounces = 1;
+    EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "") << "no further bounce, no further maps";
+}
+
+TEST(LimitsRefusal, MapsOfLights) {
+    EXPECT_THAT(limits_refusal({.shadow_size = 16384}, {.texture_size = 8192}), HasSubstr("--shadow-size"));
+    EXPECT_THAT(limits_refusal({.rsm_size = 16384}, {.texture_size = 8192}), HasSubstr("--rsm-size"));
+    EXPECT_EQ(limits_refusal({.technique = Technique::direct, .rsm_size = 16384}, {.texture_size = 8192}),
+              "");
+}
+
+TEST(LayerRefusal, SaysWhyALayerIsNotThere) {
+    const auto why = [](Settings settings, Show show) {
+        settings.show = show;
+        return layer_refusal(settings);
+    };
+    for (const auto& [name, show] : setting_names<Show>()) {
+        const bool light = show == Show::shaded || show == Show::direct;
+        EXPECT_EQ(why({.technique = Technique::direct}, show).empty(), light) << name;
+    }
+    EXPECT_EQ(why({.technique = Technique::rsm}, Show::interpolation), "");
+    EXPECT_THAT(why({.technique = Technique::rsm, .interpolate = false}, Show::interpolation),
+                HasSubstr("off"));
+    EXPECT_THAT(why({.technique = Technique::ism}, Show::interpolation), HasSubstr("rsm"));
+    EXPECT_THAT(why({.technique = Technique::rsm}, Show::vpls), HasSubstr("technique rsm"));
+    EXPECT_EQ(why({}, Show::vpls), "");
+    EXPECT_EQ(why({}, Show::ism), "");
+    EXPECT_THAT(why({.visibility = Visibility::none}, Show::ism), HasSubstr("visibility none"));
+    EXPECT_THAT(why({.splat = Splat::disks}, Show::ism_splats), HasSubstr("disks"));
+    EXPECT_EQ(why({.splat = Splat::compute}, Show::ism_splats), "");
+    EXPECT_THAT(why({.interleave = 1}, Show::unblurred), HasSubstr("interleave 1"));
+    EXPECT_THAT(why({.near_field = true}, Show::removed), HasSubstr("near field"));
+    EXPECT_EQ(why({.bounces = 2, .near_field = true}, Show::removed), "");
+    EXPECT_EQ(why({.near_field = false}, Show::removed), "");
+}
+
+TEST(SettingNames, NameEveryValueOnce) {
+    EXPECT_EQ(name_of(Show::vpl_visibility), "vpl-visibility");
+    EXPECT_EQ(setting_names<Show>().size(), static_cast<size_t>(Show::removed) + 1);
+    for (const auto& [name, show] : setting_names<Show>()) {
+        EXPECT_EQ(name_of(show), name);
+    }
+}
+
+}  // namespace
+}  // namespace bounce
