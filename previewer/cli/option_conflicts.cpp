@@ -104,8 +104,7 @@ std::string map_conflict(const RenderOptions& o, const Settings& s) {
                      {"--pull-threshold", o.pull_threshold.has_value()},
                      {"--push-threshold", o.push_threshold.has_value()}});
     if (pull_push != nullptr && disks) {
-        return fmt::format("{} needs --splat compute or points: disks leave no holes to be filled",
-                           pull_push);
+        return fmt::format("{} needs --splat compute or points: disks are drawn without it", pull_push);
     }
     if (pull_push != nullptr && s.pull_push == PullPush::off) {
         return fmt::format("{} has no effect with --pull-push off", pull_push);

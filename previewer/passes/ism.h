@@ -6,7 +6,8 @@
 namespace bounce::passes {
 
 // How points are drawn into imperfect shadow maps. In all a splat covers the solid angle of the area that its
-// point stands for.
+// point stands for: squares that of the area turned face on, disks that of the area as it lies, somewhat
+// enlarged (renderer/ism_layout.cpp).
 enum class Splat {
     disks,    // oriented disks with the plane's depth at each texel, compute
     compute,  // squares of one depth, compute, atomic minimum
@@ -39,10 +40,9 @@ struct VplSet {
     int columns = 0;   // maps a row of the atlas
     int rows = 0;
     int points_a_map = 0;
-    int interleave = 1;     // n: each pixel gathers from an n x n-th of the lights
-    int subset = 0;         // lights in such a part
-    int subset_places = 0;  // places of the buffer it takes
-    int cell_columns = 1;   // of a subset's cells of the sampled square
+    int interleave = 1;    // n: each pixel gathers from an n x n-th of the lights
+    int subset = 0;        // lights in such a part
+    int cell_columns = 1;  // of a subset's cells of the sampled square
 };
 
 struct IsmInputs {

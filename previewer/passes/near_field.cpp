@@ -16,14 +16,16 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
         builder.read(light.reach);
         list = builder.create_buffer("near tiles", static_cast<size_t>(tiles) * 2 * sizeof(GLuint));
         counts = builder.create_buffer("near tiles dispatch", 4 * sizeof(GLuint));
-        return [context, light, tiles, list, counts](const PassResources& resources) {
-            constexpr std::array<GLuint, 4> none = {0, 1, 1, 0};
+        return [context, interleave = inputs.interleave, light, tiles, list,
+                counts](const PassResources& resources) {
+            constexpr std::array<GLuint, 4> none = {0, 0, 1, 0};
             resources.buffer(counts).update(std::span<const GLuint>(none));
             context.programs.compute("passes/near_tiles.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
             resources.texture(light.reach).bind_image(IMG_IN, GL_READ_ONLY);
             resources.buffer(list).bind_storage(SSBO_PIXEL_LIST);
             resources.buffer(counts).bind_storage(SSBO_DISPATCH);
+            glUniform1i(0, interleave);
             glDispatchCompute((static_cast<GLuint>(tiles) + GROUP_1D - 1) / GROUP_1D, 1, 1);
             finish_writes();
         };
@@ -43,6 +45,7 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
             context.uniforms.bind(UBO_ISM, inputs.uniforms);
             bind_gbuffer(resources, inputs.gbuffer);
             resources.buffer(list).bind_storage(SSBO_PIXEL_LIST);
+            resources.buffer(counts).bind_storage(SSBO_NEAR_COUNT);
             resources.buffer(inputs.importance.rows).bind_storage(SSBO_ROW_SUMS);
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
             glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(counts).id());

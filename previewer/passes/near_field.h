@@ -11,6 +11,7 @@ struct NearFieldInputs {
     std::vector<VplSource> sources;
     VplImportance importance;
     gpu::UniformArena::Slot uniforms;  // IsmUniforms of the lights
+    int interleave = 1;
     bool glossy = false;
 };
 

@@ -10,7 +10,9 @@ namespace bounce::passes {
 struct RemovedLight {
     double indirect = 0.0;  // by the light that was gathered
     double removed = 0.0;   // by what bounding the lights' kernels took away from it
-    // Signed share of the indirect light by which bounding makes the picture wrong: 0 to -1.
+    // Signed share of the indirect light that bounding takes away, 0 to -1: the bias it would be if the
+    // lights stood at random places. In the middle of what they stand for, 1/d^2 overshoots near by, and part
+    // of it is that.
     [[nodiscard]] double bias() const {
         return indirect + removed > 0.0 ? -removed / (indirect + removed) : 0.0;
     }

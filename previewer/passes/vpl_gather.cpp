@@ -31,7 +31,7 @@ void dispatch_chunks(const PassContext& context, const VplSet& set, gl::Defines 
         if (!first_set || first > 0) defines["NEXT_CHUNK"] = "1";
         context.programs.compute("passes/vpl_gather.comp", defines).use();
         for (int subset = 0; subset < n * n; ++subset) {
-            glUniform3i(0, subset, first, subset * set.subset_places + first);
+            glUniform2i(0, subset, subset * set.subset + first);
             glDispatchCompute(static_cast<GLuint>((context.width + block - 1) / block),
                               static_cast<GLuint>((context.height + block - 1) / block), 1);
         }
@@ -76,6 +76,7 @@ TextureHandle add_bounced_blur(FrameGraph& graph, const PassContext& context, co
     for (const bool vertical : {false, true}) {
         graph.add_pass(vertical ? "blur, vertical" : "blur, horizontal", [&](PassBuilder& builder) {
             read_gbuffer(builder, gbuffer);
+            builder.read(gbuffer.geometric_normal);
             const TextureHandle from = builder.read(bounced);
             const TextureHandle to = create_bounced(builder, context);
             bounced = to;
@@ -85,6 +86,7 @@ TextureHandle add_bounced_blur(FrameGraph& graph, const PassContext& context, co
                 context.programs.compute("passes/bounced_blur.comp", defines).use();
                 context.uniforms.bind(UBO_FRAME, context.frame);
                 bind_gbuffer(resources, gbuffer);
+                resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
                 resources.texture(from).bind_image(IMG_IN, GL_READ_ONLY);
                 resources.texture(to).bind_image(IMG_OUT, GL_WRITE_ONLY);
                 glUniform1i(0, interleave);

@@ -54,8 +54,9 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
                 source.bind(resources);
                 resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
                 resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
-                glUniform2i(0, row, texel);
-                glDispatchCompute(static_cast<GLuint>(source.rows), 1, 1);
+                glUniform3i(0, row, texel, source.rows);
+                glDispatchCompute(static_cast<GLuint>(std::min(source.rows, MOST_GROUPS)),
+                                  static_cast<GLuint>((source.rows + MOST_GROUPS - 1) / MOST_GROUPS), 1);
             });
             finish_writes();
             gl::Defines defines;
@@ -74,9 +75,8 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
         }
         builder.read(sums);
         builder.read(texel_sums);
-        const int places = layout.subset_places * layout.interleave * layout.interleave;
         const BufferHandle vpls =
-            builder.create_buffer("vpls", static_cast<size_t>(places) * sizeof(gpu::GpuVpl));
+            builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
         out.set.vpls = vpls;
         return [context, for_each, layout, rows, sums, texel_sums, vpls](const PassResources& resources) {
             for_each([&](const Source& source, int row, int texel) {
@@ -86,7 +86,7 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
                 resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
                 resources.buffer(vpls).bind_storage(SSBO_VPLS_OUT);
                 glUniform4i(0, row, source.rows, rows, texel);
-                glUniform4i(1, layout.interleave, layout.subset, layout.subset_places, layout.cell_columns);
+                glUniform3i(1, layout.interleave, layout.subset, layout.cell_columns);
                 glUniform3i(2, layout.maps, layout.map_size, layout.columns);
                 glDispatchCompute((static_cast<GLuint>(layout.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
             });

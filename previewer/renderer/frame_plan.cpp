@@ -36,7 +36,7 @@ void leave_out_bounces(FramePlan& plan, const std::string& reason) {
         return;
     }
     plan.indirect = false;
-    plan.left_out.push_back({"rsm", reason});
+    plan.left_out.push_back({"bounced light", reason});
     plan.notes.push_back("no bounced light: " + reason);
 }
 
@@ -137,7 +137,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         settings.show == Show::shaded || settings.show == Show::direct || settings.show == Show::vpls;
     plan.indirect = settings.technique != Technique::direct && settings.show != Show::direct;
     if (settings.technique == Technique::direct) {
-        plan.left_out.push_back({"rsm", "direct light only was asked for"});
+        plan.left_out.push_back({"bounced light", "direct light only was asked for"});
     }
     plan.deform = std::any_of(pose.draws.begin(), pose.draws.end(),
                               [&](const scene::DrawInstance& draw) { return deforms(scene, draw); });
@@ -149,6 +149,9 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.near_field = plan.vpls && settings.near_field;
+    if (plan.near_field) {
+        plan.approximations.emplace_back("light from next to its source is not occluded (near field)");
+    }
     plan.glossy = plan.vpls && settings.glossy_bounces;
     plan.occluded = plan.vpls && settings.visibility != Visibility::none;
     plan.bounces = plan.vpls ? settings.bounces : 0;

@@ -31,9 +31,10 @@ constexpr double k_reflector_overlap = 2.0;
 constexpr double k_disk_set_back = 0.5;
 
 // Paths with one depth a splat: the receiver is moved towards the light by this many radii, and by this many
-// texel widths times the slope of its surface against the ray.
+// texel widths times the slope of its surface against the ray: a texel's corner lies 0.71 widths from its
+// centre, where a splat's one depth is true at best.
 constexpr double k_flat_bias = 0.5;
-constexpr double k_slope_bias = 1.5;
+constexpr double k_slope_bias = 0.75;
 
 }  // namespace
 
@@ -44,8 +45,6 @@ IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map) {
     const int wanted = bounce == 1 ? settings.vpls : settings.bounce_vpls;
     layout.subset = std::max((wanted + subsets - 1) / subsets, 1);
     layout.vpls = layout.subset * subsets;
-    // A subset begins on an even place: two lights fill 256 bytes.
-    layout.subset_places = layout.subset + layout.subset % 2;
     // Cells of the first bounce are about square, as its maps are. Those of a further one are strips: rows
     // follow a curve over the scene's surfaces (shaders/lib/irsm.glsl), and along a row lie only the lights
     // that shine there.
@@ -81,17 +80,19 @@ gpu::IsmUniforms layout_uniforms(const IsmLayout& layout, size_t points, size_t 
     gpu::IsmUniforms out{};
     out.atlas = {layout.map_size, layout.columns, layout.vpls, layout.points_a_map};
     out.points = {static_cast<int>(points), static_cast<int>(first), layout.shadow_map_size, 0};
-    out.gather = {layout.interleave, layout.subset, layout.subset_places, layout.cell_columns};
+    out.gather = {layout.interleave, layout.subset, layout.cell_columns, 0};
     return out;
 }
 
 }  // namespace
 
-gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, size_t reflectors, size_t first, bool splatted) {
+gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings, size_t reflectors,
+                               size_t first, double mean_radius) {
     gpu::IsmUniforms out = layout_uniforms(layout, reflectors, first);
     const double density = static_cast<double>(reflectors) / layout.points_a_map;
-    const double overlap = splatted ? k_reflector_overlap : 1.0;
-    out.splat.x = static_cast<float>(density * overlap * overlap);
+    const double overlap = settings.splat_irsms ? k_reflector_overlap : 1.0;
+    out.splat =
+        glm::vec4(glm::dvec4(density * overlap * overlap, 0.0, k_flat_bias * mean_radius, k_slope_bias));
     return out;
 }
 

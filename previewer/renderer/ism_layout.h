@@ -10,18 +10,16 @@ namespace bounce {
 
 // The lights of one bounce.
 struct IsmLayout {
-    int vpls = 0;           // asked for, rounded up to a multiple of the interleaved pixels n^2
-    int interleave = 1;     // n
-    int subset = 0;         // lights that one pixel gathers from: vpls / n^2
-    int subset_places = 0;  // places a subset takes in the buffer of lights
-    int cell_columns = 0;   // of a subset's cells of the sampled square
-    int map_size = 0;       // texels a side of each map
-    int columns = 0;        // maps a row of the atlas
+    int vpls = 0;          // asked for, rounded up to a multiple of the interleaved pixels n^2
+    int interleave = 1;    // n
+    int subset = 0;        // lights that one pixel gathers from: vpls / n^2
+    int cell_columns = 0;  // of a subset's cells of the sampled square
+    int map_size = 0;      // texels a side of each map
+    int columns = 0;       // maps a row of the atlas
     int points_a_map = 0;
     int shadow_map_size = 0;  // of reflective maps: texels of the lights' shadow maps
 
     [[nodiscard]] int rows() const { return (vpls + columns - 1) / columns; }
-    [[nodiscard]] int places() const { return subset_places * interleave * interleave; }
     [[nodiscard]] int atlas_width() const { return columns * map_size; }
     [[nodiscard]] int atlas_height() const { return rows() * map_size; }
 };
@@ -47,7 +45,8 @@ struct IsmLayout {
                                             size_t occluders, double mean_radius);
 
 // The same for imperfect reflective shadow maps; their points, `reflectors`, stand behind `first` others.
-[[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, size_t reflectors, size_t first,
-                                             bool splatted);
+// What hides those is looked up in the maps that mean_radius is of.
+[[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings,
+                                             size_t reflectors, size_t first, double mean_radius);
 
 }  // namespace bounce

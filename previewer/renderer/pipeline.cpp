@@ -120,6 +120,7 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
                                   .sources = sources,
                                   .importance = lit.importance,
                                   .uniforms = lit.sets.front().uniforms,
+                                  .interleave = lit.sets.front().interleave,
                                   .glossy = in.plan.glossy},
                                  light);
     }

@@ -13,8 +13,8 @@ Settings preset_settings(Preset preset) {
             break;
         case Preset::ism2008:
             // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with
-            // 4,096 points (their P = N_res / 4, and Table 1), two levels and 5 % of the scene's extent, 4 x
-            // 4 pixels.
+            // 4,096 points (P = N_res / 4 of the whole square), two levels and 5 % of the scene's extent; of
+            // Table 1's blocks the one of 4 x 4 pixels.
             out.technique = Technique::ism;
             out.vpls = 1024;
             out.bounce_vpls = 256;

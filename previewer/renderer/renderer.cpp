@@ -72,7 +72,6 @@ passes::VplSet vpl_set(const IsmLayout& layout) {
     set.points_a_map = layout.points_a_map;
     set.interleave = layout.interleave;
     set.subset = layout.subset;
-    set.subset_places = layout.subset_places;
     set.cell_columns = layout.cell_columns;
     return set;
 }
@@ -113,9 +112,8 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
     irsm.map_size = k_irsm_size;
     double mean_radius = 0.0;
     if (needs_points) {
-        const scene::Bounds& bounds = gpu_scene_.bounds();
-        const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
-        const double hull = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+        // Of the animation, not of this frame: points stay the same ones while things move.
+        const double hull = points_->parts().box_surface_m2;
         // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it
         // spreads what stands before them.
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
@@ -174,7 +172,7 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         maps.shadow_map_size = layout.map_size;
         added.irsms = vpl_set(maps);
         added.irsms.uniforms = uniforms_.add(
-            irsm_uniforms(maps, needs_points ? points_->reflectors() : 0, occluders, settings.splat_irsms));
+            irsm_uniforms(maps, settings, needs_points ? points_->reflectors() : 0, occluders, mean_radius));
     }
     return out;
 }

@@ -91,9 +91,9 @@ struct Settings {
     int ism_size = 64;         // texels a side of each map
     int ism_points =
         0;  // points splatted into each map; 0 chooses by the maps' size and the depth complexity
-    bool large_triangles = true;  // with disks: what would take many points is drawn as triangles
-    bool drop_hull = true;        // what lies on the scene's hull hides nothing, so it is not splatted
-    PullPush pull_push = PullPush::fill;  // with one depth a splat
+    bool large_triangles = true;         // with disks: what would take many points is drawn as triangles
+    bool drop_hull = true;               // what lies on the scene's hull hides nothing, so it is not splatted
+    PullPush pull_push = PullPush::off;  // with one depth a splat
     int pull_push_levels = 2;
     float pull_threshold = 0.05F;  // of the scene's extent
     float push_threshold = 0.05F;

@@ -157,8 +157,8 @@ std::string layer_refusal(const Settings& s) {
         return "visibility shadow-maps splats nothing";
     }
     if (s.show == Show::ism_splats && s.splat == Splat::disks) {
-        return "disks leave no holes, so there is no pull-push to be seen before; layer ism is what they "
-               "draw";
+        return "disks are drawn without pull-push, so there is nothing to be seen before it; layer ism is "
+               "what they draw";
     }
     if (s.show == Show::unblurred && s.interleave == 1) {
         return "with interleave 1 nothing is blurred; layer indirect is the same";

@@ -82,7 +82,7 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
     SurfacePoint point = unpack_point(points[place]);
     uvec4 textures = point_materials[place];
     GpuMaterial m = materials[surfaces[textures.x].ids.x];
-    GpuVpl vpl = vpls[vpl_place(map)];
+    GpuVpl vpl = vpls[map];
     vec3 d = point.position - vpl.position.xyz;
     p.squared_distance = max(dot(d, d), 1e-20);
     p.from_light = d * inversesqrt(p.squared_distance);

@@ -34,6 +34,11 @@ uint pack_ism(float distance, vec2 slope) {
     return packHalf2x16(vec2(0.0, distance)) | uint(steps.x & 0xff) | uint(steps.y & 0xff) << 8;
 }
 
+// A splat of one depth, which has no slope to be rounded.
+uint pack_ism_flat(float distance) {
+    return packHalf2x16(vec2(0.0, distance * (1.0 + 1.0 / 2048.0)));
+}
+
 // Whether a receiver at a distance is no farther than what the texel holds; from_center: from the texel's centre to
 // the receiver's place in the map, in texels.
 bool ism_lit(uint bits, float distance, vec2 from_center) {

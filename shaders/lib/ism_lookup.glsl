@@ -19,7 +19,7 @@ float vpl_visibility(GpuVpl vpl, vec3 w, float distance, float cos_out, float co
 #ifdef SLOPE_BIAS
     // Splats of one depth: a receiver's distance changes across a texel with the slope of its plane against the ray.
     float slope = min(sqrt(max(1.0 - cos_in * cos_in, 0.0)) / max(cos_in, 1e-4), 20.0);
-    float bias = ism.splat.z + ism.splat.w * distance * scale / size * slope;
+    float bias = ism.splat.z + ism.splat.w * (distance * scale * 2.0 / size) * slope;
 #else
     const float bias = 0.0;  // the texel's own slope sees to it
 #endif

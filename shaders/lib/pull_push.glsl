@@ -2,9 +2,12 @@
 //
 // Fills the holes of a depth map in shared memory (Grossman and Dally 1998; Marroquim, Kraus and Cavalcanti 2007,
 // "Efficient Point-Based Rendering Using Image Reconstruction"; thresholds as in Ritschel et al. 2008, 3.2): on the
-// way up a coarser texel is the mean of those of its four that lie within the pull threshold of the nearest; on the
-// way down a hole takes what the coarser level has there, interpolated. PAPER: so does a texel that lies farther
-// behind it than the push threshold. Thresholds double with each level.
+// way up a coarser texel is made of those of its four that lie within the pull threshold of the nearest; on the way
+// down a hole takes what the coarser level has there. Thresholds double with each level.
+//
+// PAPER: it is their mean, and interpolated on the way down; and a texel that lies farther behind than the push
+// threshold is replaced as well. Otherwise it is the farthest of them: what fills a hole is the surface around it, and
+// the mean over a surface that recedes lies before half of it and would hide it.
 //
 // The including shader defines SIDE (a power of two), LEVELS (0 to 3), GROUP_SIZE, and fills level 0, fine[].
 // FINE_BITS: a shared array of uint that it has already, of SIDE x SIDE, which then holds level 0 as float bits.
@@ -54,21 +57,28 @@ float pulled(int level, ivec2 texel, float threshold) {
     }
     float sum = 0.0;
     float count = 0.0;
+    float farthest = HOLE;
     for (int i = 0; i < 4; ++i) {
         if (depths[i] >= 0.0 && depths[i] - nearest <= threshold) {
             sum += depths[i];
             count += 1.0;
+            farthest = max(farthest, depths[i]);
         }
     }
+#ifdef PAPER
     return count > 0.0 ? sum / count : HOLE;
+#else
+    return farthest;
+#endif
 }
 
-// The coarser level at a finer texel, bilinear over what is there.
+// The coarser level at a finer texel, from the four around it that are there.
 float interpolated(int level, ivec2 texel) {
     ivec2 near = texel / 2;
     ivec2 step = 2 * (texel & 1) - 1;
     float sum = 0.0;
     float weights = 0.0;
+    float farthest = HOLE;
     for (int i = 0; i < 4; ++i) {
         ivec2 off = ivec2(i & 1, i >> 1);
         float w = (off.x == 0 ? 0.75 : 0.25) * (off.y == 0 ? 0.75 : 0.25);
@@ -76,9 +86,14 @@ float interpolated(int level, ivec2 texel) {
         if (depth >= 0.0) {
             sum += w * depth;
             weights += w;
+            farthest = max(farthest, depth);
         }
     }
+#ifdef PAPER
     return weights > 0.0 ? sum / weights : HOLE;
+#else
+    return farthest;
+#endif
 }
 
 void pull_push(int me, float pull_threshold, float push_threshold) {

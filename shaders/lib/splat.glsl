@@ -14,6 +14,7 @@ struct Splat {
     float radius2;  // squared, of the disk that the point stands for
     vec2 place;     // in the map, in texels
     float reach;    // of the disk as seen face on, in texels
+    float half_side;  // of a square of the disk's solid angle, in texels
     bool flat_surface;
 };
 
@@ -31,6 +32,8 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     s.place = (paraboloid_project(s.center, s.distance) * 0.5 + 0.5) * map_size;
     // Lengths on the unit sphere are 1 + z times those in the map.
     s.reach = sqrt(s.radius2) / max(s.distance + s.center.z, 1e-20) * (0.5 * map_size);
+    float cosine = abs(dot(s.normal, s.center)) / max(s.distance, 1e-20);
+    s.half_side = s.reach * sqrt(0.25 * PI * cosine);
 #ifdef REFLECTORS
     // A disk may well be near; only one in whose plane the light lies is the surface that the light stands on.
     bool apart = abs(dot(s.normal, s.center)) > LEAST_PLANE_DISTANCE;

@@ -13,9 +13,4 @@ layout(std140, binding = UBO_ISM) uniform IsmBlock {
     IsmUniforms ism;
 };
 
-// Where the index-th light stands: each subset begins on an even place, where a uniform block may begin.
-int vpl_place(int index) {
-    return index / ism.gather.y * ism.gather.z + index % ism.gather.y;
-}
-
 #endif

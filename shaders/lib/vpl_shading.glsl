@@ -13,15 +13,15 @@
 // 1 - (n.h)^2 runs out of digits.
 const float LEAST_VPL_ALPHA = 0.05;
 
-// What of a receiver is the same for every light.
 // A light stands for a piece of surface of area A, and a glossy lobe at either end turns a row of such lights into a row of
 // dots. Seen from a distance d the piece's directions spread by the variance s^2 = A / (12 d^2) along each axis if it is a
-// square across the ray; half vectors by s^2 / 4. alpha^2 is twice the variance of a lobe's slopes, so a lobe that has been
+// square across the ray; half vectors by s^2 / 4. alpha^2 is twice the variance of a lobe's slopes (Beckmann's; GGX has tails besides), so a lobe that has been
 // averaged over the piece has alpha^2 + A / (24 d^2) (as Hasan et al. 2009, "Virtual Spherical Lights for Many-Light
 // Rendering of Glossy Scenes", average over a ball). Twice that lets neighbouring pieces overlap as a reconstruction
 // filter must. The cosine of the piece to the ray is left out: at grazing angles a piece stays as long as it is.
 const float WIDENING = 1.0 / 12.0;
 
+// What of a receiver is the same for every light.
 struct Receiver {
     vec3 view;          // unit, towards the viewer
     float view_fifth;   // (1 - n.v)^5

@@ -14,6 +14,7 @@ layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(location = 0) uniform int n;
 layout(binding = IMG_OUT, rgba32ui) writeonly uniform uimage2D blurred_image;
 layout(binding = IMG_IN, rgba32ui) readonly uniform uimage2D bounced_image;
+layout(binding = TEX_GEOMETRIC_NORMAL) uniform sampler2D geometric_normal_texture;
 
 // How far off the plane a neighbour may lie, in pixel widths at the receiver.
 const float PLANE_TOLERANCE = 0.7;
@@ -24,7 +25,8 @@ void main() {
     uvec4 center = imageLoad(bounced_image, min(pixel, last));
     float depth = uintBitsToFloat(center.w);
     vec3 position = pixel_position(min(pixel, last), depth > 0.0 ? depth : 0.5);
-    vec3 normal = unpack_normal(texelFetch(gbuffer1_texture, min(pixel, last), 0));
+    // The triangle's own normal: a normal map tilts what is shaded, not where the surface goes on.
+    vec3 normal = octahedral_decode(texelFetch(geometric_normal_texture, min(pixel, last), 0).xy * 2.0 - 1.0);
     vec4 c = vec4(normal, -dot(normal, position)) * frame.render_from_clip;
     float per_depth = c.z == 0.0 ? 0.0 : 1.0 / c.z;
 #ifdef VERTICAL

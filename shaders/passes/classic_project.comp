@@ -19,7 +19,7 @@ void main() {
     if (any(greaterThanEqual(texel, ivec2(size)))) {
         return;
     }
-    GpuVpl vpl = vpls[vpl_place(map)];
+    GpuVpl vpl = vpls[map];
     float texel_size = 2.0 / float(size);
     vec2 at = (vec2(texel) + 0.5) * texel_size - 1.0;
     vec3 local = paraboloid_direction(at);
@@ -37,10 +37,7 @@ void main() {
         float along = dot(plane.xyz, ray_of(vpl, local));
         float distance = plane.w / along;
         if (plane.w != 0.0 && distance > 0.0) {
-            vec2 slope = vec2(dot(plane.xyz, ray_of(vpl, paraboloid_direction(at + vec2(texel_size, 0.0)))),
-                              dot(plane.xyz, ray_of(vpl, paraboloid_direction(at + vec2(0.0, texel_size))))) /
-                             along - 1.0;
-            bits = pack_ism(distance, slope);
+            bits = pack_ism(distance, plane_slope(vpl_from_render(vpl, plane.xyz), along, at, texel_size));
         }
     }
     imageStore(atlas_image, ism_origin(map) + texel, uvec4(bits));

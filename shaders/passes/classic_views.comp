@@ -21,7 +21,7 @@ void main() {
     if (index >= ism.atlas.z * CLASSIC_FACES) {
         return;
     }
-    GpuVpl vpl = vpls[vpl_place(index / CLASSIC_FACES)];
+    GpuVpl vpl = vpls[index / CLASSIC_FACES];
     mat3 render_from_map = mat3(vpl.tangent.xyz, vpl.bitangent.xyz, vpl.normal.xyz);
     vec3 right;
     vec3 up;

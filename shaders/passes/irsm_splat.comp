@@ -14,7 +14,7 @@ void main() {
     const float texel_size = 2.0 / float(MAP_SIZE);
     int map = int(gl_WorkGroupID.x);
     int me = int(gl_LocalInvocationID.x);
-    GpuVpl vpl = vpls[vpl_place(map)];
+    GpuVpl vpl = vpls[map];
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
         nearest[i] = 0xffffffffu;
     }

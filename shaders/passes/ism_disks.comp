@@ -51,7 +51,7 @@ void main() {
     int map = int(gl_WorkGroupID.x);
     int me = int(gl_LocalInvocationID.x);
     ivec2 origin = ism_origin(map);
-    GpuVpl vpl = vpls[vpl_place(map)];
+    GpuVpl vpl = vpls[map];
     Splat s;
 #ifdef SHARED
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {

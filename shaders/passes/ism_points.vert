@@ -10,10 +10,10 @@ void main() {
     int map = gl_VertexID / ism.atlas.w;
     float map_size = float(ism.atlas.x);
     Splat s;
-    bool seen = see_point(vpls[vpl_place(map)], points[point_place(map, gl_VertexID % ism.atlas.w)], map_size, s);
+    bool seen = see_point(vpls[map], points[point_place(map, gl_VertexID % ism.atlas.w)], map_size, s);
     out_origin = ism_origin(map);
     // Depth 1 at the light, 0 at infinity.
     gl_Position = seen ? vec4((vec2(out_origin) + s.place) / atlas_size * 2.0 - 1.0, 1.0 / (1.0 + s.distance), 1.0)
                        : vec4(0.0, 0.0, -1.0, 1.0);
-    gl_PointSize = max(s.reach * sqrt(PI), 1.0);
+    gl_PointSize = max(2.0 * s.half_side, 1.0);
 }

@@ -42,7 +42,7 @@ void main() {
         bool mine = all(greaterThanEqual(local, ivec2(BORDER))) && all(lessThan(local, ivec2(SIDE - BORDER))) &&
                     all(lessThanEqual(texel, last));
         if (mine) {
-            uint bits = fine[i] < 0.0 ? ISM_EMPTY : pack_ism(fine[i], vec2(0.0));
+            uint bits = fine[i] < 0.0 ? ISM_EMPTY : pack_ism_flat(fine[i]);
             imageStore(filled_image, origin + texel, uvec4(bits));
         }
     }

@@ -23,12 +23,11 @@ layout(binding = IMG_OUT1, r32ui) writeonly uniform uimage2D filled_image;
 #endif
 
 void draw_square(Splat s, ivec2 origin) {
-    uint bits = pack_ism(s.distance, vec2(0.0));
-    float half_side = s.reach * (0.5 * sqrt(PI));
+    uint bits = pack_ism_flat(s.distance);
     // The texels whose centres the square covers, and at least the point's own.
     ivec2 own = ivec2(s.place);
-    ivec2 low = clamp(min(ivec2(ceil(s.place - half_side - 0.5)), own), ivec2(0), ivec2(MAP_SIZE - 1));
-    ivec2 high = clamp(max(ivec2(floor(s.place + half_side - 0.5)), own), ivec2(0), ivec2(MAP_SIZE - 1));
+    ivec2 low = clamp(min(ivec2(ceil(s.place - s.half_side - 0.5)), own), ivec2(0), ivec2(MAP_SIZE - 1));
+    ivec2 high = clamp(max(ivec2(floor(s.place + s.half_side - 0.5)), own), ivec2(0), ivec2(MAP_SIZE - 1));
     ivec2 extent = high - low + 1;
     int count = extent.x * extent.y;
     for (int i = 0; i < count; ++i) {
@@ -45,7 +44,7 @@ void main() {
     int map = int(gl_WorkGroupID.x);
     int me = int(gl_LocalInvocationID.x);
     ivec2 origin = ism_origin(map);
-    GpuVpl vpl = vpls[vpl_place(map)];
+    GpuVpl vpl = vpls[map];
     Splat s;
 #ifdef SHARED
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
@@ -68,7 +67,7 @@ void main() {
     pull_push(me, thresholds.x, thresholds.y);
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
         float depth = LOAD_FINE(i);
-        uint bits = depth < 0.0 ? ISM_EMPTY : pack_ism(depth, vec2(0.0));
+        uint bits = depth < 0.0 ? ISM_EMPTY : pack_ism_flat(depth);
         imageStore(filled_image, origin + ivec2(i % MAP_SIZE, i / MAP_SIZE), uvec4(bits));
     }
 #endif

@@ -49,7 +49,7 @@ void main() {
     int map = int(gl_WorkGroupID.z);
     int me = int(gl_LocalInvocationIndex);
     for (int i = me; i < TRIANGLE_COUNT; i += GROUP_MAP_TILE * GROUP_MAP_TILE) {
-        wedges[i] = make_wedge(vpls[vpl_place(map)], first + i);
+        wedges[i] = make_wedge(vpls[map], first + i);
     }
     barrier();
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

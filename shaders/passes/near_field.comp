@@ -20,6 +20,10 @@ layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
     uvec2 tiles[];
 };
+layout(std430, binding = SSBO_NEAR_COUNT) readonly buffer DispatchBlock {
+    uvec3 groups;
+    uint tile_count;
+};
 layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock {
     float running_sums[];
 };
@@ -42,7 +46,8 @@ vec2 spiral(int i) {
 }
 
 // As WIDENING, for a sample: the blur averages the samples of a block of pixels, so each needs to fill less of the gaps
-// between them. None leaves fireflies, much more darkens reflections near contact; docs/glossy.md has the measurement.
+// between them. None leaves fireflies, much more darkens reflections near contact; docs/papers/imperfect_shadow_maps.md
+// has the measurement.
 const float NEAR_WIDENING = WIDENING / 8.0;
 
 struct Center {
@@ -63,15 +68,19 @@ void add_sample(Center at, vec2 st, int layer, float measure, inout BouncedLight
     float cos_out = max(dot(p.normal, w), 0.0);
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
-    float side = surface_area(p, at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30));
-    float share = near_share(squared, 1.0 / max(min(NEAR_RADIUS * NEAR_RADIUS * side, NEAR_CAP * NEAR_CAP), 1e-30));
+    float area = surface_area(p, at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30));
+    float share = near_share(squared, 1.0 / max(min(NEAR_RADIUS * NEAR_RADIUS * area, NEAR_CAP * NEAR_CAP), 1e-30));
     float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
     add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,
             widening, sum);
 }
 
 void main() {
-    uvec2 tile = tiles[gl_WorkGroupID.x];
+    uint place = gl_WorkGroupID.y * uint(MOST_GROUPS) + gl_WorkGroupID.x;
+    if (place >= tile_count) {
+        return;  // the group as a whole
+    }
+    uvec2 tile = tiles[place];
     ivec2 pixel = ivec2(tile.x & 0xffffu, tile.x >> 16) * GROUP_2D + ivec2(gl_LocalInvocationID.xy);
     float reach = uintBitsToFloat(tile.y) * 1.2;
     Center at;

@@ -19,7 +19,7 @@
 
 layout(local_size_x = GROUP_1D) in;
 layout(location = 0) uniform ivec4 rows;    // this source's first row, its number of rows, rows in all, first texel
-layout(location = 1) uniform ivec4 layout_;  // n, lights a subset, places a subset, columns of a subset's cells
+layout(location = 1) uniform ivec3 layout_;  // n, lights a subset, columns of a subset's cells
 layout(location = 2) uniform ivec3 maps;     // lights, size of their maps, maps a row of the atlas
 layout(std430, binding = SSBO_VPLS_OUT) writeonly buffer VplOutBlock { GpuVpl drawn[]; };
 
@@ -112,18 +112,17 @@ void main() {
     if (index >= maps.x) {
         return;
     }
-    int place = index / layout_.y * layout_.z + index % layout_.y;
     float total = running_sums[rows.z - 1];
     if (!(total > 0.0)) {
-        drawn[place] = dark_vpl();
+        drawn[index] = dark_vpl();
         return;
     }
     // Cells of one subset of the interleaved gather are n apart, so each subset covers the whole square.
     int n = layout_.x;
     int subset = index / layout_.y;
     int k = index % layout_.y;
-    ivec2 cell = ivec2(k % layout_.w, k / layout_.w) * n + ivec2(subset % n, subset / n);
-    vec2 cells = vec2(layout_.w * n, layout_.y / layout_.w * n);
+    ivec2 cell = ivec2(k % layout_.z, k / layout_.z) * n + ivec2(subset % n, subset / n);
+    vec2 cells = vec2(layout_.z * n, layout_.y / layout_.z * n);
     // Where sources meet within a row of cells each takes its part of the columns, and all of its cells' points lie in
     // its own map.
     float decider = (float(shuffled(cell.x, int(cells.x))) + 0.5) / cells.x;
@@ -171,6 +170,8 @@ void main() {
     PixelLight chosen = children[hash(uint(index)) % uint(CHILDREN)];
     vec3 center = vec3(0.0);
     vec3 color = vec3(0.0);
+    float metal = 0.0;  // metallic, weighed by what the colour sends
+    float sent = 0.0;
     vec3 normal = vec3(0.0);
     float area = 0.0;
     float measure = 0.0;
@@ -185,6 +186,9 @@ void main() {
             center += children[i].position;
             normal += children[i].normal;
             color += children[i].color * measures[i];
+            float part = dot(children[i].color, vec3(1.0)) * measures[i];
+            metal += part * children[i].metallic;
+            sent += part;
             measure += measures[i];
             area += surface_area(children[i], measures[i]);
         }
@@ -201,6 +205,8 @@ void main() {
     }
     float all = float(CHILDREN) / members;
     middle.color = color / max(measure, 1e-30);
+    // So that what is reflected diffusely sums up as well.
+    middle.metallic = sent > 0.0 ? metal / sent : middle.metallic;
     GpuVpl vpl = make_vpl(middle, measure * all);
     area *= all;
 #ifdef GLOSSY
@@ -220,5 +226,5 @@ void main() {
     vpl.position.w = area;
     vpl.tangent.w = 1.0 / max(near_radius * near_radius, 1e-30);
     vpl.bitangent.w = uintBitsToFloat(uint(origin.x) | uint(origin.y) << 16);
-    drawn[place] = vpl;
+    drawn[index] = vpl;
 }

@@ -13,7 +13,7 @@
 #include "lib/vpl_shading.glsl"
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
-layout(location = 0) uniform ivec3 job;  // subset, the chunk's first light within it, its place in the buffer
+layout(location = 0) uniform ivec2 job;  // subset, the chunk's first light
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 #ifdef NEAR_FIELD
 layout(binding = IMG_OUT1, r16f) uniform image2D reach_image;  // near radius of lights that are near
@@ -51,7 +51,7 @@ void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight s
 
 void main() {
     if (gl_LocalInvocationIndex < uint(CHUNK)) {
-        chunk[gl_LocalInvocationIndex] = vpls[job.z + int(gl_LocalInvocationIndex)];
+        chunk[gl_LocalInvocationIndex] = vpls[job.y + int(gl_LocalInvocationIndex)];
     }
     barrier();
     int n = ism.gather.x;

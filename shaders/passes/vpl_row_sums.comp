@@ -9,7 +9,7 @@
 #endif
 
 layout(local_size_x = GROUP_ROW) in;
-layout(location = 0) uniform ivec2 first;  // this light's first row among those of all lights, its first texel
+layout(location = 0) uniform ivec3 first;  // this source's first row among those of all, its first texel, its rows
 
 layout(std430, binding = SSBO_ROW_SUMS) writeonly buffer RowBlock { float row_sums[]; };
 layout(std430, binding = SSBO_TEXEL_SUMS) writeonly buffer TexelBlock { float texel_sums[]; };
@@ -17,7 +17,10 @@ layout(std430, binding = SSBO_TEXEL_SUMS) writeonly buffer TexelBlock { float te
 shared float runs[2][GROUP_ROW];
 
 void main() {
-    int row = int(gl_WorkGroupID.x);
+    int row = int(gl_WorkGroupID.y) * MOST_GROUPS + int(gl_WorkGroupID.x);
+    if (row >= first.z) {
+        return;  // the group as a whole
+    }
     int me = int(gl_LocalInvocationID.x);
     int size = source_size();
     int length = (size + GROUP_ROW - 1) / GROUP_ROW;

@@ -22,7 +22,7 @@ float along_view(vec3 position) {
 }
 
 void main() {
-    GpuVpl vpl = vpls[vpl_place(gl_VertexID)];
+    GpuVpl vpl = vpls[gl_VertexID];
     vec3 sent = vpl.intensity.rgb + vpl.glossy.rgb;
     float brightest = max(max(sent.r, sent.g), sent.b);
     vec4 clip = view.clip_from_render * vec4(vpl.position.xyz, 1.0);

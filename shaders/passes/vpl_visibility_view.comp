@@ -21,7 +21,7 @@ void main() {
     vec3 color = vec3(0.0);
     Surface s;
     if (read_surface(pixel, s)) {
-        GpuVpl vpl = vpls[vpl_place(light)];
+        GpuVpl vpl = vpls[light];
         vec3 d = s.position - vpl.position.xyz;
         float distance = sqrt(max(dot(d, d), 1e-30));
         vec3 w = d / distance;

@@ -16,6 +16,7 @@
 #define SSBO_MATERIALS 1
 #define SSBO_PATTERN 3
 #define SSBO_PIXEL_LIST 4
+#define SSBO_NEAR_COUNT 3
 #define SSBO_DISPATCH 5
 #define SSBO_POINT_SOURCES 3
 #define SSBO_POINT_SURFACES 4
@@ -51,7 +52,6 @@
 #define TEX_INDIRECT 11
 #define TEX_LOWRES 12
 #define TEX_GEOMETRIC_NORMAL 13
-#define TEX_ISM 14
 #define TEX_DEPTH_SAMPLES 8
 
 // Image units.
@@ -75,11 +75,13 @@
 // screen is mostly one surface.
 #define GROUP_2D 8
 #define GROUP_1D 64
+// Groups along one axis of a dispatch at most, where they may be more than the 65,535 that OpenGL promises.
+#define MOST_GROUPS 32768
 // One group sums a row of a map, or scans all row sums.
 #define GROUP_ROW 64
 #define GROUP_SCAN 256
-// Virtual point lights that one dispatch of the gather evaluates at most, unrolled: their data are then read at constant
-// offsets of a uniform block, which every driver turns into scalar loads.
+// Virtual point lights that one dispatch of the gather evaluates at most, unrolled: they are then read from shared memory
+// at constant places, which every driver turns into scalar loads.
 #define VPL_CHUNK 16
 // Samples of each map that the near field takes at a pixel: 8 or 16.
 #define NEAR_SAMPLES 8

@@ -86,9 +86,8 @@ struct IsmUniforms {
     ivec4 points;           // points in the sequence, place of its first one, reflective maps: size of
                             // the lights' shadow maps, -
     vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii;
-                            // constant bias; bias by slope, in texels
-    ivec4 gather;           // interleave n, VPLs a subset, places of the VPL buffer a subset,
-                            // columns of a subset's cells
+                            // constant bias; bias by slope, in texel widths
+    ivec4 gather;           // interleave n, VPLs a subset, columns of a subset's cells, -
 };
 
 // A point of the scene's surfaces as it was sampled; see scene/points.

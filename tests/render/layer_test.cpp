@@ -133,6 +133,7 @@ TEST_F(Layers, TheWholeAtlasHasAllMaps) {
 TEST_F(Layers, PullPushFillsWhatSplatsLeave) {
     Settings splats = settings(Show::ism_splats);
     splats.splat = Splat::compute;
+    splats.pull_push = PullPush::fill;
     splats.ism_points = 128;
     splats.shown_vpl = 0;
     Settings filled = splats;

@@ -112,7 +112,6 @@ class VplEnergy : public ::testing::Test {
         set.rows = layout.rows();
         set.interleave = layout.interleave;
         set.subset = layout.subset;
-        set.subset_places = layout.subset_places;
         set.cell_columns = layout.cell_columns;
         const passes::DrawnVpls drawn = passes::add_vpls_from_rsms(graph, context, sources, set, glossy);
         Fluxes out;
@@ -124,12 +123,10 @@ class VplEnergy : public ::testing::Test {
             builder.side_effect();
             return [&](const PassResources& resources) {
                 const auto all =
-                    resources.buffer(drawn.set.vpls).read<gpu::GpuVpl>(static_cast<size_t>(layout.places()));
-                for (int i = 0; i < layout.vpls; ++i) {
-                    const auto place =
-                        static_cast<size_t>(i / layout.subset * layout.subset_places + i % layout.subset);
-                    out.vpls.push_back(all[place]);
-                    out.lights += pi * glm::dvec3(glm::vec3(all[place].intensity));
+                    resources.buffer(drawn.set.vpls).read<gpu::GpuVpl>(static_cast<size_t>(layout.vpls));
+                for (const gpu::GpuVpl& vpl : all) {
+                    out.vpls.push_back(vpl);
+                    out.lights += pi * glm::dvec3(glm::vec3(vpl.intensity));
                 }
                 for (size_t i = 0; i < sources.size(); ++i) {
                     out.maps.push_back(flux_of_map(resources.texture(sources[i].rsm), setups[i]));

@@ -221,11 +221,13 @@ class PullPush : public IsmGlsl {
                     const double nearest = *std::min_element(there.begin(), there.end());
                     double sum = 0.0;
                     double count = 0.0;
+                    double farthest = nearest;
                     for (const double depth : there) {
+                        farthest = depth <= nearest + pull ? std::max(farthest, depth) : farthest;
                         sum += depth <= nearest + pull ? depth : 0.0;
                         count += depth <= nearest + pull ? 1.0 : 0.0;
                     }
-                    coarse[at(half, x, y)] = sum / count;
+                    coarse[at(half, x, y)] = paper ? sum / count : farthest;
                 }
             }
         }
@@ -235,6 +237,7 @@ class PullPush : public IsmGlsl {
             for (int x = 0; x < side; ++x) {
                 double sum = 0.0;
                 double weights = 0.0;
+                double farthest = -1.0;
                 // A texel's middle in the coarse level's texels.
                 const double u = 0.5 * (x + 0.5) - 0.5;
                 const double v = 0.5 * (y + 0.5) - 0.5;
@@ -248,10 +251,11 @@ class PullPush : public IsmGlsl {
                             const double w = (1.0 - std::abs(u - cx)) * (1.0 - std::abs(v - cy));
                             sum += w * depth;
                             weights += w;
+                            farthest = std::max(farthest, depth);
                         }
                     }
                 }
-                const double pushed = weights > 0.0 ? sum / weights : -1.0;
+                const double pushed = !paper ? farthest : weights > 0.0 ? sum / weights : -1.0;
                 double& depth = out[at(side, x, y)];
                 if (depth < 0.0 || (paper && pushed >= 0.0 && depth - pushed > push)) {
                     depth = pushed;

@@ -13,7 +13,7 @@ namespace bounce::scene {
 // The point of this index in [0, 1)^3. Another seed gives an independent randomisation with the same
 // stratification. Sobol 1967; direction numbers of the first three dimensions by Joe and Kuo 2008,
 // "Constructing Sobol Sequences with Better Two-Dimensional Projections"; scrambling by Burley 2020,
-// "Practical Hash-based Owen Scrambling".
+// "Practical Hash-based Owen Scrambling", with the hash that Vegdahl 2021 found to scramble better.
 [[nodiscard]] glm::dvec3 sobol_point(uint32_t index, uint32_t seed);
 
 }  // namespace bounce::scene

@@ -167,6 +167,7 @@ class Cutter {
 
     SurfaceParts cut() {
         list_surfaces();
+        find_box();
         find_total();
         for (size_t i = 0; i < out_.surfaces.size(); ++i) {
             add_parts(static_cast<uint32_t>(i));
@@ -228,6 +229,15 @@ class Cutter {
         return found != positions_.end()
                    ? found->second
                    : positions_.emplace(key, model_positions(primitive_of(surface))).first->second;
+    }
+
+    void find_box() {
+        Bounds box;
+        for (const Pose& pose : poses_) {
+            box.grow(world_bounds(scene_, pose));
+        }
+        const glm::dvec3 side = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
+        out_.box_surface_m2 = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
     }
 
     void find_total() {

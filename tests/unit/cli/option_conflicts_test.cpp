@@ -64,8 +64,8 @@ TEST(OptionConflicts, MapsThatAreNotDrawn) {
 }
 
 TEST(OptionConflicts, PullPushNeedsHoles) {
-    const Settings disks{.splat = Splat::disks};
-    const Settings squares{.splat = Splat::compute};
+    const Settings disks{.splat = Splat::disks, .pull_push = PullPush::fill};
+    const Settings squares{.splat = Splat::compute, .pull_push = PullPush::fill};
     const auto fill = [](RenderOptions& o) { o.pull_push = "fill"; };
     const auto push = [](RenderOptions& o) { o.push_threshold = 0.1F; };
     EXPECT_THAT(conflict(fill, disks), HasSubstr("--splat compute or points"));

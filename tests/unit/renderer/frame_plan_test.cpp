@@ -79,9 +79,11 @@ TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
     EXPECT_FALSE(p.interpolate) << "that is for light gathered from reflective shadow maps";
     EXPECT_EQ(p.lights, std::vector<int>{0});
     EXPECT_EQ(p.shadows, std::vector<bool>{true});
-    EXPECT_EQ(reason(p, "rsm"), "");
+    EXPECT_EQ(reason(p, "bounced light"), "");
     EXPECT_EQ(reason(p, "rsm interpolate"), "");
-    EXPECT_TRUE(p.approximations.empty());
+    EXPECT_EQ(p.approximations.size(), 1U) << "the near field";
+    settings_.near_field = false;
+    EXPECT_TRUE(plan().approximations.empty());
 }
 
 TEST_F(FramePlanTest, TheReflectiveShadowMapAloneIsInterpolated) {
@@ -103,7 +105,7 @@ TEST_F(FramePlanTest, DirectTechniqueLeavesTheBounceOutAsAskedFor) {
     EXPECT_FALSE(p.indirect);
     EXPECT_FALSE(p.vpls);
     EXPECT_FALSE(p.interpolate);
-    EXPECT_THAT(reason(p, "rsm"), HasSubstr("asked for"));
+    EXPECT_THAT(reason(p, "bounced light"), HasSubstr("asked for"));
 }
 
 TEST_F(FramePlanTest, ShowingOneKindOfLightLeavesTheOtherOut) {
@@ -144,9 +146,9 @@ TEST_F(FramePlanTest, WithoutLightThereIsNothingToBounce) {
     EXPECT_FALSE(p.interpolate);
     EXPECT_FALSE(p.vpls);
     EXPECT_EQ(p.bounces, 0);
-    EXPECT_THAT(reason(p, "rsm"), HasSubstr("no light"));
+    EXPECT_THAT(reason(p, "bounced light"), HasSubstr("no light"));
     settings_.technique = Technique::rsm;
-    EXPECT_THAT(reason(plan(), "rsm"), HasSubstr("no light"));
+    EXPECT_THAT(reason(plan(), "bounced light"), HasSubstr("no light"));
 }
 
 TEST_F(FramePlanTest, ALightThatCastsNoShadowHasNoMap) {
@@ -166,7 +168,7 @@ TEST_F(FramePlanTest, SurfacesThatReflectNothingDiffuselyBounceNothing) {
         const FramePlan p = plan();
         EXPECT_FALSE(p.indirect);
         EXPECT_TRUE(p.direct);
-        EXPECT_THAT(reason(p, "rsm"), HasSubstr("reflects diffusely"));
+        EXPECT_THAT(reason(p, "bounced light"), HasSubstr("reflects diffusely"));
         scene_.materials[0] = before;
     };
     refuses([](scene::Material& m) { m.base_color = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F); });

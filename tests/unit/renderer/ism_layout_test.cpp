@@ -46,24 +46,6 @@ TEST(IsmLayout, LaterBouncesHaveTheirOwnCount) {
     EXPECT_EQ(ism_layout(settings, 3, 512).cell_columns, 1) << "strips: a row is a place";
 }
 
-TEST(IsmLayout, EachSubsetBeginsAtAnEvenPlace) {
-    for (const int n : {1, 2, 4, 16}) {
-        for (const int wanted : {1, 16, 48, 100, 272, 1000}) {
-            const IsmLayout layout = ism_layout(with(wanted, n), 1, 512);
-            EXPECT_EQ(layout.subset_places % 2, 0);
-            EXPECT_GE(layout.subset_places, layout.subset);
-            EXPECT_LE(layout.subset_places, layout.subset + 1);
-            // As shaders/lib/vpl.glsl places lights: each its own place within the buffer.
-            std::set<int> places;
-            for (int i = 0; i < layout.vpls; ++i) {
-                places.insert(i / layout.subset * layout.subset_places + i % layout.subset);
-            }
-            EXPECT_EQ(places.size(), static_cast<size_t>(layout.vpls));
-            EXPECT_LT(*places.rbegin(), layout.places());
-        }
-    }
-}
-
 TEST(IsmLayout, CellsTileTheSquareOnceEach) {
     // As shaders/passes/vpl_draw.comp gives cells to lights.
     for (const int bounce : {1, 2}) {
@@ -116,7 +98,7 @@ TEST(IsmLayout, UniformsSayWhatTheLayoutSays) {
     EXPECT_EQ(disks.atlas, glm::ivec4(128, layout.columns, 100, 700));
     EXPECT_EQ(disks.points.x, 70000);
     EXPECT_EQ(disks.points.y, 0);
-    EXPECT_EQ(disks.gather, glm::ivec4(2, 25, 26, 5));
+    EXPECT_EQ(disks.gather, glm::ivec4(2, 25, 5, 0));
     // A point stands for a 70,000th of the area, in a map for a 700th: 100 times, and disks overlap.
     EXPECT_GT(disks.splat.x, 100.0F);
     EXPECT_LT(disks.splat.x, 200.0F);
@@ -127,7 +109,7 @@ TEST(IsmLayout, UniformsSayWhatTheLayoutSays) {
     EXPECT_NEAR(squares.splat.x, 100.0F, 1e-3F);
     EXPECT_GT(squares.splat.z, 0.0F) << "one depth a splat needs one";
     EXPECT_GT(squares.splat.w, 0.0F);
-    const gpu::IsmUniforms reflective = irsm_uniforms(layout, 7000, 70000, false);
+    const gpu::IsmUniforms reflective = irsm_uniforms(layout, {}, 7000, 70000, 0.0);
     EXPECT_EQ(reflective.points.x, 7000);
     EXPECT_EQ(reflective.points.y, 70000) << "reflectors stand behind the occluders";
     EXPECT_NEAR(reflective.splat.x, 10.0F, 1e-4F);
