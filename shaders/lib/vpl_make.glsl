@@ -20,9 +20,9 @@ GpuVpl dark_vpl() {
     return vpl;
 }
 
-// Reach of a light's near field over the side of the square it stands for.
+// Reach of a light's near field over the side of the square it stands for: at three sides a light is one of a dozen or
+// two that light a receiver alike, and no longer a spot. docs/papers/imperfect_shadow_maps.md has the measurement.
 const float NEAR_RADIUS = 3.0;
-const float NEAR_CAP = 0.24;
 
 // The light that stands for `measure` of the map (solid angle, or area across a sun's rays) around the texel.
 // Its near radius and its map are left to the caller.

@@ -29,7 +29,7 @@ layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock {
 };
 
 // From its rim to its innermost sample the spiral spans this factor.
-const float SPAN = 256.0;
+const float SPAN = 256.0;  // down to about a texel of a map of 256 at the widest
 // Lobes need more samples than cosines do.
 #ifdef GLOSSY
 #define SAMPLES NEAR_SAMPLES_GLOSSY
@@ -69,7 +69,7 @@ void add_sample(Center at, vec2 st, int layer, float measure, inout BouncedLight
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
     float area = surface_area(p, at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30));
-    float share = near_share(squared, 1.0 / max(min(NEAR_RADIUS * NEAR_RADIUS * area, NEAR_CAP * NEAR_CAP), 1e-30));
+    float share = near_share(squared, 1.0 / max(NEAR_RADIUS * NEAR_RADIUS * area, 1e-30));
     float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
     add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,
             widening, sum);
@@ -82,6 +82,7 @@ void main() {
     }
     uvec2 tile = tiles[place];
     ivec2 pixel = ivec2(tile.x & 0xffffu, tile.x >> 16) * GROUP_2D + ivec2(gl_LocalInvocationID.xy);
+    // Samples know the area they stand for themselves, and it may be somewhat larger than that of the light next to them.
     float reach = uintBitsToFloat(tile.y) * 1.2;
     Center at;
     float depth = read_surface_unbranched(min(pixel, frame.size.xy - 1), at.s);

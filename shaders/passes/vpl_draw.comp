@@ -220,7 +220,7 @@ void main() {
     vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
     vpl.arriving.rgb *= gain;
 #endif
-    float near_radius = min(NEAR_RADIUS * sqrt(area), NEAR_CAP);
+    float near_radius = NEAR_RADIUS * sqrt(area);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
     vpl.position.w = area;
