@@ -76,7 +76,7 @@ void add_evaluate(CLI::App& app, Run& run) {
         ->capture_default_str();
     command
         ->add_option("--bounces", options.bounces,
-                     "Diffuse bounces that Cycles renders; Bounce renders as many, up to 4")
+                     "Bounces off surfaces that Cycles renders; Bounce renders as many, up to 4")
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command->add_option("--repeat", options.repeat, "Renders of each frame by Bounce; their median counts")

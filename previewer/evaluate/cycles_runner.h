@@ -42,8 +42,8 @@ struct CyclesReport {
 };
 
 // Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
-// bounces diffuse bounces, no caustics, no clamping, no denoiser, no adaptive sampling; pixel
-// filter Blackman-Harris, 1.5 px (evaluate/cycles_render.py says how each is set). on_render is called
+// `bounces` bounces, diffuse or glossy, no clamping, no denoiser, no adaptive sampling; pixel
+// filter Blackman-Harris, width 1.5 (evaluate/cycles_render.py says how each is set). on_render is called
 // after each picture. Throws input_error where Blender cannot render the scene.
 [[nodiscard]] CyclesReport run_cycles(const CyclesJob& job, const std::filesystem::path& blender,
                                       const std::function<void(const CyclesRender&)>& on_render = {});

@@ -229,8 +229,8 @@
   const startups = own.map((point) => point.startup_seconds);
   fact("Reference", `Cycles on the CPU, ${results.blender}, ${results.reference.threads} threads, ` +
     `${results.reference.spp} samples a pixel in two halves with different seeds: direct light and ` +
-    `${results.reference.bounces} diffuse bounce${results.reference.bounces === 1 ? "" : "s"}; no ` +
-    "caustics, clamping, denoiser or adaptive sampling; Blackman-Harris filter, 1.5 px.");
+    `${results.reference.bounces} bounce${results.reference.bounces === 1 ? "" : "s"}, diffuse or glossy; no ` +
+    "clamping, denoiser or adaptive sampling; Blackman-Harris filter, width 1.5.");
   fact("Error", "relMSE: mean over pixels and channels of (a − b)² / (b² + 0.01) on scene-linear values. FLIP " +
     "(Andersson et al., 2020) after the Standard view transform. Bias: mean(a) / mean(b) − 1.");
   fact("Noise floor", `An exact picture would score ${scientific(floor)} against this reference: half the difference ` +
