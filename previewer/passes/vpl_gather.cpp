@@ -72,7 +72,7 @@ GatheredLight add_vpl_gather(FrameGraph& graph, const PassContext& context, cons
 }
 
 TextureHandle add_bounced_blur(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                               TextureHandle bounced, int interleave) {
+                               TextureHandle bounced, int interleave, bool tent) {
     for (const bool vertical : {false, true}) {
         graph.add_pass(vertical ? "blur, vertical" : "blur, horizontal", [&](PassBuilder& builder) {
             read_gbuffer(builder, gbuffer);
@@ -80,9 +80,10 @@ TextureHandle add_bounced_blur(FrameGraph& graph, const PassContext& context, co
             const TextureHandle from = builder.read(bounced);
             const TextureHandle to = create_bounced(builder, context);
             bounced = to;
-            return [context, gbuffer, interleave, from, to, vertical](const PassResources& resources) {
+            return [context, gbuffer, interleave, from, to, vertical, tent](const PassResources& resources) {
                 gl::Defines defines;
                 if (vertical) defines["VERTICAL"] = "1";
+                if (tent) defines["TENT"] = "1";
                 context.programs.compute("passes/bounced_blur.comp", defines).use();
                 context.uniforms.bind(UBO_FRAME, context.frame);
                 bind_gbuffer(resources, gbuffer);

@@ -25,8 +25,9 @@ struct GatheredLight {
 [[nodiscard]] GatheredLight add_vpl_gather(FrameGraph& graph, const PassContext& context,
                                            const VplGatherInputs& inputs);
 
-// The interleaved light averaged over n x n pixels of one surface.
+// The interleaved light averaged over n x n pixels of one surface; tent: over a tent twice as wide.
 [[nodiscard]] TextureHandle add_bounced_blur(FrameGraph& graph, const PassContext& context,
-                                             const GBuffer& gbuffer, TextureHandle bounced, int interleave);
+                                             const GBuffer& gbuffer, TextureHandle bounced, int interleave,
+                                             bool tent);
 
 }  // namespace bounce::passes

@@ -30,6 +30,13 @@ bool deforms(const scene::Scene& scene, const scene::DrawInstance& draw) {
         });
 }
 
+// Metals reflect by their lobe alone, and the lobe of a dielectric smoother than Blender's default (roughness
+// 0.5) stands out from its diffuse reflection.
+bool has_narrow_lobe(const scene::Material& material) {
+    const bool textured = material.metallic_roughness_texture.present();
+    return !material.unlit && (textured || material.metallic > 0.0F || material.roughness < 0.5F);
+}
+
 // Bounced light was asked for, but there is none in this frame.
 void leave_out_bounces(FramePlan& plan, const std::string& reason) {
     if (!plan.indirect) {
@@ -107,12 +114,14 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
         const bool shines = !material.unlit && !is_dark(material.emission * material.emission_strength);
         emitters |= shines;
         plan.emission |= shines || material.unlit;  // an unlit surface shows its colour as if it emitted it
+        plan.narrow_lobes |= glossy && has_narrow_lobe(material);
         blend |= material.alpha_mode == scene::AlphaMode::blend;
         // Where a texture says what is metal, the factor 1 is only glTF's default.
         const float metallic =
             glossy || material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
         reflects |= !is_dark(glm::vec3(material.base_color) * (1.0F - metallic)) && !material.unlit;
     });
+    plan.narrow_lobes |= glossy && draws_default_material(scene, pose);
     if (!draws_triangles(scene, pose)) {
         leave_out_bounces(plan, "nothing that is drawn has a triangle");
     } else if (!reflects && !(glossy && draws_default_material(scene, pose))) {

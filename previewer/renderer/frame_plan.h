@@ -18,12 +18,13 @@ struct LeftOut {
 struct FramePlan {
     bool deform = false;
     bool direct = false;
-    bool indirect = false;    // any bounced light
-    bool vpls = false;        // bounced light by virtual point lights
-    bool occluded = false;    // and these are occluded
-    int bounces = 0;          // of light by virtual point lights
-    bool glossy = false;      // with the glossy lobes of lights and receivers
-    bool near_field = false;  // what is near the lights is gathered from the RSMs
+    bool indirect = false;      // any bounced light
+    bool vpls = false;          // bounced light by virtual point lights
+    bool occluded = false;      // and these are occluded
+    int bounces = 0;            // of light by virtual point lights
+    bool glossy = false;        // with the glossy lobes of lights and receivers
+    bool narrow_lobes = false;  // some so narrow that they change within a block of interleaved pixels
+    bool near_field = false;    // what is near the lights is gathered from the RSMs
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;

@@ -128,7 +128,7 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
     if (interleave == 1 || in.settings.show == Show::unblurred) {
         return bounced;
     }
-    return add_bounced_blur(graph, context, gbuffer, bounced, interleave);
+    return add_bounced_blur(graph, context, gbuffer, bounced, interleave, in.plan.narrow_lobes);
 }
 
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
@@ -247,9 +247,10 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             }
             const int interleave = lit.sets.front().interleave;
             if (in.settings.show == Show::removed) {
-                bounced = removed.valid() && interleave > 1
-                              ? add_bounced_blur(graph, context, gbuffer, removed, interleave)
-                              : removed;
+                bounced =
+                    removed.valid() && interleave > 1
+                        ? add_bounced_blur(graph, context, gbuffer, removed, interleave, in.plan.narrow_lobes)
+                        : removed;
             }
         }
     } else if (in.plan.indirect && in.plan.interpolate) {

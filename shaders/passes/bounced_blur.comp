@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Averages interleaved light over n + 1 pixels along one axis, the outer two by half: each of the n subsets of
-// lights counts once, so on a plane nothing is left of the pattern. Pixels off the receiver's plane are left out.
+// Averages interleaved light along one axis so that each of the n subsets of lights counts alike; pixels off the
+// receiver's plane are left out. As written over n + 1 pixels, the outer two by half: on a plane nothing is left of the
+// pattern where each light itself changes little over a block. TENT: over 2 n - 1 pixels with weights that fall to both
+// sides, where glossy lobes make it change more: the pattern's gradient goes as well.
 //
 // In screen space a plane's depth (1/z, or z without perspective) is linear, so the test is one comparison of
 // depths: with the plane's clip-space coefficients c, depth = -(c.x x + c.y y + c.w) / c.z.
@@ -41,13 +43,23 @@ void main() {
     vec3 irradiance = vec3(0.0);
     vec3 glossy = vec3(0.0);
     float weights = 0.0;
-    for (int i = -(n / 2); i <= n / 2; ++i) {
+#ifdef TENT
+    int reach = n - 1;
+#else
+    int reach = n / 2;
+#endif
+    for (int i = -reach; i <= reach; ++i) {
         ivec2 tap = pixel + i * axis;
         uvec4 bits = imageLoad(bounced_image, clamp(tap, ivec2(0), last));
         float tap_depth = uintBitsToFloat(bits.w);
         bool same = abs(tap_depth - (depth + slope * float(i))) < tolerance && tap == clamp(tap, ivec2(0), last) &&
                     tap_depth > 0.0;
-        float weight = same || i == 0 ? (abs(i) == n / 2 ? 0.5 : 1.0) : 0.0;
+#ifdef TENT
+        float share = float(n - abs(i));
+#else
+        float share = abs(i) == reach ? 0.5 : 1.0;
+#endif
+        float weight = same || i == 0 ? share : 0.0;
         BouncedLight b = unpack_bounced(bits);
         irradiance += weight * b.irradiance;
         glossy += weight * b.glossy;

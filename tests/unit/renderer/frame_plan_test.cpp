@@ -230,6 +230,20 @@ TEST_F(FramePlanTest, SaysWhyThereIsNoBouncedLight) {
     EXPECT_EQ(note(), "") << "nobody asked for it";
 }
 
+TEST_F(FramePlanTest, NarrowLobesAreThoseOfMetalsAndSmoothSurfaces) {
+    settings_ = {};
+    scene_.materials[0].metallic = 0.0F;
+    scene_.materials[0].roughness = 0.5F;
+    EXPECT_FALSE(plan().narrow_lobes);
+    scene_.materials[0].roughness = 0.4F;
+    EXPECT_TRUE(plan().narrow_lobes);
+    scene_.materials[0].roughness = 0.9F;
+    scene_.materials[0].metallic = 0.5F;
+    EXPECT_TRUE(plan().narrow_lobes);
+    settings_.glossy_bounces = false;
+    EXPECT_FALSE(plan().narrow_lobes);
+}
+
 TEST_F(FramePlanTest, MetalsBounceLightByTheirGlossyLobes) {
     settings_ = {};
     scene_.materials[0].metallic = 1.0F;
