@@ -115,11 +115,31 @@ std::string map_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+// Options of layers that are not the one shown.
+std::string layer_conflict(const RenderOptions& o, const Settings& s) {
+    const auto unused = [&](const char* option, const char* layers) {
+        return fmt::format("{} has no effect with --show {}; it is an option of {}", option, name_of(s.show),
+                           layers);
+    };
+    if (o.light && !shows_rsm(s.show)) {
+        return unused("--light", "the rsm- layers");
+    }
+    if (o.vpl && !shows_vpl_maps(s.show)) {
+        return unused("--vpl", "--show ism, ism-splats and vpl-visibility");
+    }
+    if (o.bounce && !shows_vpl_maps(s.show) && s.show != Show::vpls) {
+        return unused("--bounce", "--show vpls, ism, ism-splats and vpl-visibility");
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    if (std::string conflict = technique_conflict(o, s); !conflict.empty()) {
-        return conflict;
+    for (std::string conflict : {technique_conflict(o, s), layer_conflict(o, s)}) {
+        if (!conflict.empty()) {
+            return conflict;
+        }
     }
     if (s.rsm_full_sum && (o.pattern || (o.interpolate && *o.interpolate) || o.lowres)) {
         return "--rsm-samples all evaluates every texel in every pixel: without a pattern and without "

@@ -65,14 +65,19 @@ FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const Came
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::pair(std::move(report), ms);
     };
+    // What is missing from the picture is found out once, by reading back, which no timed rendering does.
+    Settings finding = settings;
+    finding.find_unlit = first;
     // Times are of steady state: shaders are compiled and textures made by a rendering that is not counted.
-    if (arguments.repeat > 1 || (first && !arguments.stats.empty())) {
-        (void)once(gl::TimingMode::off, settings);
-    }
+    const bool warm_up = arguments.repeat > 1 || (first && !arguments.stats.empty());
+    FrameReport found = warm_up ? once(gl::TimingMode::off, finding).first : FrameReport{};
     for (int i = 0; i < arguments.repeat; ++i) {
-        auto [report, ms] = once(gl::TimingMode::off, settings);
+        auto [report, ms] = once(gl::TimingMode::off, warm_up ? settings : finding);
         stats.report = std::move(report);
         stats.all_wall_ms.push_back(ms);
+    }
+    if (!warm_up) {
+        found = stats.report;
     }
     if (!arguments.stats.empty() && arguments.pass_times) {
         // Passes are timed in a rendering of their own, so that waiting for each does not slow the frame's
@@ -81,6 +86,10 @@ FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const Came
         counting.count_gathered_pixels = true;
         counting.measure_removed = arguments.removed;
         stats.report = once(device.software ? gl::TimingMode::finish : gl::TimingMode::query, counting).first;
+    }
+    if (first) {
+        stats.report.notes = found.notes;
+        stats.report.left_out = found.left_out;
     }
     return stats;
 }
@@ -97,7 +106,6 @@ ExitCode render(const Arguments& arguments) {
     }
     const scene::Scene& scene = loaded.scene;
     Settings settings = arguments.render.settings(scene);
-    settings.find_unlit = true;
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
             "--measure-removed needs --technique ism: only kernels of virtual point lights are bounded");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -167,8 +168,11 @@ std::optional<int> number_or(const std::string& text, const char* word, const ch
     }
     int value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code == std::errc::result_out_of_range) {
+        return std::numeric_limits<int>::max();  // settings_refusal() knows the setting's range
+    }
     if (code != std::errc() || end != text.data() + text.size()) {
-        throw usage_error(fmt::format("{} is '{}'; give a number, or {}", option, text, word));
+        throw usage_error(fmt::format("{} is '{}'; give a whole number, or {}", option, text, word));
     }
     return value;
 }

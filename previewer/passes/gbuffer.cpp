@@ -4,8 +4,25 @@
 #include <array>
 
 namespace bounce::passes {
+namespace {
 
-GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera) {
+// Whether a single sample of what is drawn passes the depth test; waits for the GPU.
+template <typename Draw>
+bool draws_samples(const Draw& draw) {
+    GLuint query = 0;
+    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &query);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, query);
+    draw();
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    GLuint any = 0;
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &any);
+    glDeleteQueries(1, &query);
+    return any != 0;
+}
+
+}  // namespace
+
+GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera, bool* anything_seen) {
     GBuffer out;
     graph.add_pass("gbuffer", [&](PassBuilder& builder) {
         const auto target = [&](const char* name, GLenum format) {
@@ -19,7 +36,7 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
         if (context.scene.has_emission()) {
             out.emission = target("emission", GL_RGBA32F);
         }
-        return [context, camera, out](const PassResources& resources) {
+        return [context, camera, out, anything_seen](const PassResources& resources) {
             const gl::Attachment color{&resources.texture(out.base_color_roughness)};
             const gl::Attachment normal{&resources.texture(out.normal_metallic_specular)};
             const gl::Attachment geometric{&resources.texture(out.geometric_normal)};
@@ -36,8 +53,15 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
             if (emission) {
                 glClearNamedFramebufferfv(framebuffer.id(), GL_COLOR, 3, black.data());
             }
-            draw_scene(context, camera, emission ? DrawKind::surface_with_emission : DrawKind::surface,
-                       "passes/gbuffer.frag", {});
+            const auto draw = [&] {
+                draw_scene(context, camera, emission ? DrawKind::surface_with_emission : DrawKind::surface,
+                           "passes/gbuffer.frag", {});
+            };
+            if (anything_seen != nullptr) {
+                *anything_seen = draws_samples(draw);
+            } else {
+                draw();
+            }
         };
     });
     return out;

@@ -14,7 +14,8 @@ struct GBuffer {
     TextureHandle emission;
 };
 
-[[nodiscard]] GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera);
+[[nodiscard]] GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera,
+                                  bool* anything_seen = nullptr);
 
 // For passes that read it: declares, then binds.
 void read_gbuffer(PassBuilder& builder, const GBuffer& gbuffer);

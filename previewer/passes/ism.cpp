@@ -69,6 +69,27 @@ TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const
     return out;
 }
 
+// Bare places inside surfaces closed, in maps that do not fit into shared memory.
+TextureHandle add_close(FrameGraph& graph, const PassContext& context, const VplSet& set,
+                        TextureHandle atlas) {
+    TextureHandle out;
+    graph.add_pass("ism close", [&](PassBuilder& builder) {
+        builder.read(atlas);
+        out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        return [context, set, atlas, out](const PassResources& resources) {
+            context.programs.compute("passes/ism_close.comp", {{"MAP_SIZE", std::to_string(set.map_size)}})
+                .use();
+            context.uniforms.bind(UBO_ISM, set.uniforms);
+            resources.texture(atlas).bind_image(IMG_IN, GL_READ_ONLY);
+            resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
+            const auto groups = static_cast<GLuint>(set.map_size / GROUP_2D);
+            glDispatchCompute(groups, groups, static_cast<GLuint>(set.maps));
+            finish_writes();
+        };
+    });
+    return out;
+}
+
 // over: an atlas with triangles, or invalid.
 TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
                         const VplSet& set, TextureHandle over) {
@@ -91,7 +112,7 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
             dispatch_splats(set);
         };
     });
-    return out;
+    return fits_shared(set) ? out : add_close(graph, context, set, out);
 }
 
 TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const PullPushSettings& settings,

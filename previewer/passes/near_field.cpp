@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/near_field.h"
 
+#include <algorithm>
 #include <array>
 
 namespace bounce::passes {
+namespace {
+
+// Sets of samples that are averaged at least: the blur does it over a block of pixels, where blocks are as
+// large.
+constexpr int k_least_blend = 16;
+
+}  // namespace
 
 TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, const NearFieldInputs& inputs,
                              const GatheredLight& light) {
@@ -49,6 +57,7 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
             resources.buffer(inputs.importance.rows).bind_storage(SSBO_ROW_SUMS);
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
             glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(counts).id());
+            const int rounds = std::max(k_least_blend / (inputs.interleave * inputs.interleave), 1);
             for (const VplSource& source : inputs.sources) {
                 gl::Defines defines = light_defines(source.light);
                 if (inputs.glossy) defines["GLOSSY"] = "1";
@@ -57,8 +66,11 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
                 context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
                 resources.texture(source.rsm).bind_image(IMG_RSM, GL_READ_ONLY);
                 glUniform1i(0, inputs.importance.row_count);
-                glDispatchComputeIndirect(0);
-                finish_writes();
+                for (int round = 0; round < rounds; ++round) {
+                    glUniform2i(1, round, rounds);
+                    glDispatchComputeIndirect(0);
+                    finish_writes();
+                }
             }
         };
     });

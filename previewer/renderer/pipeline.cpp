@@ -202,7 +202,7 @@ void read_reflected_flux(FrameGraph& graph, const passes::VplImportance& importa
 void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     using namespace passes;
     const PassContext& context = in.context;
-    const GBuffer gbuffer = add_gbuffer(graph, context, in.camera);
+    const GBuffer gbuffer = add_gbuffer(graph, context, in.camera, in.anything_seen);
 
     TextureHandle direct;
     GatherInputs gather{.gbuffer = gbuffer, .sources = {}, .full_sum = in.settings.rsm_full_sum};

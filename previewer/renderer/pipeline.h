@@ -34,7 +34,8 @@ struct PipelineInputs {
     int* gathered_pixels = nullptr;
     passes::RemovedLight* removed = nullptr;
     float* reflected_flux =
-        nullptr;  // of all reflective shadow maps, in no particular unit; 0: nothing is lit
+        nullptr;                    // of all reflective shadow maps, in no particular unit; 0: nothing is lit
+    bool* anything_seen = nullptr;  // whether the camera sees a surface
 };
 
 // Wires the passes of one frame. The only place that does: reading it top to bottom is reading the frame.

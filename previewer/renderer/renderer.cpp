@@ -253,6 +253,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     report.left_out = plan.left_out;
     report.notes = plan.notes;
     float reflected_flux = -1.0F;
+    bool anything_seen = true;
     if (settings.measure_removed && plan.vpls) {
         report.removed.emplace();
     }
@@ -284,7 +285,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
                     .removed = report.removed ? &*report.removed : nullptr,
-                    .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr});
+                    .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
+                    .anything_seen = settings.find_unlit ? &anything_seen : nullptr});
     graph.execute(timer);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
@@ -294,6 +296,9 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         const std::string reason = "no light reaches a surface that reflects it";
         report.left_out.push_back({"bounced light", reason});
         report.notes.push_back("no bounced light: " + reason);
+    }
+    if (!anything_seen && !pose.draws.empty()) {
+        report.notes.emplace_back("the camera sees no surface of the scene");
     }
     pool_.end_frame();
     report.passes = timer.collect();

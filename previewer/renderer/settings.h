@@ -106,7 +106,8 @@ struct Settings {
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
-    bool find_unlit = false;             // says where no light reaches what reflects it; costs a wait
+    bool find_unlit =
+        false;  // says where nothing is seen, and where nothing that reflects is lit; costs a wait
 
     [[nodiscard]] int used_rsm_size() const {
         return rsm_size > 0 ? rsm_size : technique == Technique::ism ? 256 : 512;

@@ -13,6 +13,8 @@ layout(std430, binding = SSBO_POINTS) readonly buffer PointBlock { uvec4 points[
 
 #ifdef SHARED
 shared uint nearest[MAP_SIZE * MAP_SIZE];
+#define LOAD_CLOSE(texel) nearest[(texel).y * MAP_SIZE + (texel).x]
+#include "lib/ism_close.glsl"
 #endif
 
 void draw_nearest(ivec2 origin, ivec2 texel, uint bits) {
@@ -69,7 +71,8 @@ void main() {
     }
     barrier();
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
-        imageStore(atlas_image, origin + ivec2(i % MAP_SIZE, i / MAP_SIZE), uvec4(nearest[i]));
+        ivec2 texel = ivec2(i % MAP_SIZE, i / MAP_SIZE);
+        imageStore(atlas_image, origin + texel, uvec4(closed_texel(texel)));
     }
 #else
     int index = int(gl_GlobalInvocationID.y) * GROUP_SPLAT + me;

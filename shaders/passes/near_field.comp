@@ -15,7 +15,8 @@
 #include "lib/vpl_make.glsl"
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
-layout(location = 0) uniform int rows;  // rows of all maps together
+layout(location = 0) uniform int rows;    // rows of all maps together
+layout(location = 1) uniform ivec2 round_;  // which of how many sets of samples this is
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
     uvec2 tiles[];
@@ -57,14 +58,17 @@ struct Center {
 };
 
 // What the map has at st (-1 to 1) of a layer, where it stands for `measure` of the map.
-void add_sample(Center at, vec2 st, int layer, float measure, inout BouncedLight sum) {
+// radius: how far the sample lies from the receiver across the light's rays.
+void add_sample(Center at, vec2 st, int layer, float measure, float radius, inout BouncedLight sum) {
     ivec2 texel = ivec2(clamp((st * 0.5 + 0.5) * light.map.x, vec2(0.0), vec2(light.map.x - 1.0)));
     PixelLight p;
     float seen = decode_pixel_light(load_rsm(texel, layer), texel, layer, p) ? 1.0 : 0.0;
     vec3 d = at.s.position - p.position;
-    float squared = max(dot(d, d), 1e-30);
+    vec3 w = d * inversesqrt(max(dot(d, d), 1e-30));
+    // A sample's share of the map grows with its own distance; if its texel's middle happens to be much nearer to the
+    // receiver, the two do not belong together.
+    float squared = max(max(dot(d, d), 0.5 * radius * radius), 1e-30);
     float inverse = inversesqrt(squared);
-    vec3 w = d * inverse;
     float cos_out = max(dot(p.normal, w), 0.0);
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
@@ -92,10 +96,11 @@ void main() {
     sum.irradiance = vec3(0.0);
     sum.glossy = vec3(0.0);
     int n = ism.gather.x;
-    float turn = float(pixel.x % n + pixel.y % n * n) / float(n * n);
+    float places = float(n * n * round_.y);
+    float turn = float((pixel.x % n + pixel.y % n * n) * round_.y + round_.x) / places;
     // A step of the spiral's radius is shared out among the pixels of a block.
     float grow = exp(-LOG_STEP * turn);
-    float angle = 2.0 * PI * fract(turn * 0.754877666 * float(n * n));
+    float angle = 2.0 * PI * fract(turn * 0.754877666 * places);
     vec2 rotate = grow * vec2(cos(angle), sin(angle));
     // Area of the unit disk that a sample at radius 1 stands for: radii are uniform in their logarithm.
     const float ring = 2.0 * PI * LOG_STEP;
@@ -115,7 +120,7 @@ void main() {
         vec2 st;                                                                                   \
         float face_depth;                                                                          \
         cube_face(direction, face, st, face_depth);                                                \
-        add_sample(at, st, face, 4.0 * ring * r2, sum);                                            \
+        add_sample(at, st, face, 4.0 * ring * r2, reach * length(u), sum);                                            \
     }
 #else
 #if MAP_KIND == MAP_PERSPECTIVE
@@ -130,7 +135,7 @@ void main() {
     {                                                                                                   \
         vec2 st = c + u * widest;                                                                       \
         float inside = max(abs(st.x), abs(st.y)) < 1.0 ? 1.0 : 0.0;                                     \
-        add_sample(at, st, 0, inside * map_measure(st, ring * dot(u, u) * widest.x * widest.y), sum);   \
+        add_sample(at, st, 0, inside * map_measure(st, ring * dot(u, u) * widest.x * widest.y), reach * length(u), sum);   \
     }
 #endif
     // Written out, so that the spiral's points are constants.
@@ -149,7 +154,8 @@ void main() {
     }
     uvec4 bits = imageLoad(bounced_image, pixel);
     BouncedLight before = unpack_bounced(bits);
-    sum.irradiance = before.irradiance + sum.irradiance * frame.composite.w;
-    sum.glossy = before.glossy + sum.glossy * frame.composite.w;
+    float weight = frame.composite.w / float(round_.y);
+    sum.irradiance = before.irradiance + sum.irradiance * weight;
+    sum.glossy = before.glossy + sum.glossy * weight;
     imageStore(bounced_image, pixel, pack_bounced(sum, uintBitsToFloat(bits.w)));
 }

@@ -230,6 +230,17 @@ TEST_F(Layers, ALightThatReachesNothingIsFoundAndSaid) {
     EXPECT_TRUE(show(find).report.notes.empty()) << "a lit scene has nothing to say";
 }
 
+TEST_F(Layers, ACameraThatSeesNothingIsFoundAndSaid) {
+    Settings find = settings(Show::shaded);
+    find.find_unlit = true;
+    CameraView away = camera_from_above(4.0, 10.0);
+    away.world_from_camera =
+        away.world_from_camera * glm::rotate(glm::dmat4(1.0), pi, glm::dvec3(1.0, 0.0, 0.0));
+    const Rendered dark = draw(room(true), away, find);
+    EXPECT_EQ(dark.mean(), 0.0);
+    EXPECT_THAT(dark.report.notes, Contains(testing::HasSubstr("sees no surface")));
+}
+
 TEST_F(Layers, ScenesWithoutAPointStillDraw) {
     // Triangles without area, many bounces: no point to splat or to draw lights from.
     scene::Scene scene;

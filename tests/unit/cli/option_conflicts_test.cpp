@@ -89,6 +89,18 @@ TEST(OptionConflicts, FurtherBouncesNeedMoreThanOne) {
     EXPECT_EQ(conflict(of, {.bounces = 2}), "");
 }
 
+TEST(OptionConflicts, LayersHaveTheirOwnOptions) {
+    const auto light = [](RenderOptions& o) { o.light = 0; };
+    const auto vpl = [](RenderOptions& o) { o.vpl = 5; };
+    const auto bounce = [](RenderOptions& o) { o.bounce = 1; };
+    EXPECT_THAT(conflict(light, {}), AllOf(HasSubstr("--light"), HasSubstr("--show shaded")));
+    EXPECT_THAT(conflict(vpl, {.show = Show::vpls}), AllOf(HasSubstr("--vpl "), HasSubstr("vpl-visibility")));
+    EXPECT_THAT(conflict(bounce, {}), HasSubstr("--bounce "));
+    EXPECT_EQ(conflict(light, {.show = Show::rsm_flux}), "");
+    EXPECT_EQ(conflict(vpl, {.show = Show::ism}), "");
+    EXPECT_EQ(conflict(bounce, {.show = Show::vpls}), "");
+}
+
 TEST(OptionConflicts, AFullSumHasNoPatternAndNoInterpolation) {
     const Settings all{.technique = Technique::rsm, .rsm_full_sum = true};
     EXPECT_THAT(conflict([](RenderOptions& o) { o.pattern = "paper-literal"; }, all),
