@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Closes what disks leave bare inside a surface. Points spread over a surface leave a part of it uncovered however many
-// there are, and a finely cut wall would let that part of the light through. A texel with a near surface on both sides
-// of it along s or t, whose planes agree on where they pass through the texel, shows that surface too. An outline has
-// no such pair, nor has a gap between things at different depths, so nothing grows.
+// there are, and a finely cut wall would let that part of the light through. A texel with near surfaces to all four
+// sides, along s and along t, whose planes agree on where they pass through the texel, shows that surface too. A texel
+// beyond an outline lacks one of the four, one between things at different depths their agreement, so nothing grows.
 //
 // The including shader defines LOAD_CLOSE(texel) and MAP_SIZE.
 #ifndef LIB_ISM_CLOSE

@@ -120,7 +120,7 @@ void main() {
         vec2 st;                                                                                   \
         float face_depth;                                                                          \
         cube_face(direction, face, st, face_depth);                                                \
-        add_sample(at, st, face, 4.0 * ring * r2, reach * length(u), sum);                                            \
+        add_sample(at, st, face, 4.0 * ring * r2, reach * length(u), sum);                         \
     }
 #else
 #if MAP_KIND == MAP_PERSPECTIVE
@@ -135,7 +135,8 @@ void main() {
     {                                                                                                   \
         vec2 st = c + u * widest;                                                                       \
         float inside = max(abs(st.x), abs(st.y)) < 1.0 ? 1.0 : 0.0;                                     \
-        add_sample(at, st, 0, inside * map_measure(st, ring * dot(u, u) * widest.x * widest.y), reach * length(u), sum);   \
+        float measure = map_measure(st, ring * dot(u, u) * widest.x * widest.y);                        \
+        add_sample(at, st, 0, inside * measure, reach * length(u), sum);                                \
     }
 #endif
     // Written out, so that the spiral's points are constants.
