@@ -114,6 +114,20 @@ ordered_json counts_json(const FrameReport& report) {
             {"atlas", {report.atlas_width, report.atlas_height}}};
 }
 
+// What any frame says, once each: some of it is found out in the first frame alone.
+template <typename Item>
+std::vector<Item> said_by_any(const std::vector<FrameStats>& frames, std::vector<Item> FrameReport::*items) {
+    std::vector<Item> all;
+    for (const FrameStats& frame : frames) {
+        for (const Item& item : frame.report.*items) {
+            if (std::find(all.begin(), all.end(), item) == all.end()) {
+                all.push_back(item);
+            }
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 double FrameStats::wall_ms() const {
@@ -140,7 +154,7 @@ void StatsFile::write(const std::filesystem::path& path) const {
     const FrameReport last = frames_.empty() ? FrameReport{} : frames_.back().report;
     out["left_out"] = left_out_json(last.left_out);
     out["approximations"] = last.approximations;
-    out["notes"] = last.notes;
+    out["notes"] = said_by_any(frames_, &FrameReport::notes);
     out["counts"] = counts_json(last);
     out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()},
                      {"rss_peak_bytes", peak_resident_bytes()}};

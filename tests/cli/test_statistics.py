@@ -118,6 +118,16 @@ def test_a_scene_without_bounced_light_is_drawn_and_says_so(render, tmp_path, ch
     assert (tmp_path / "a.png").stat().st_size > 0
 
 
+def test_what_the_first_frame_finds_stays_in_the_statistics_of_a_sequence(render, tmp_path):
+    document = gltf_scenes.lit_square()
+    no_lit_surface(document)
+    scene = gltf_scenes.write_glb(tmp_path / "poor.glb", document)
+    result = render(scene, "-o", "a.##.png", "--frames", "35-36", "--stats", "s.json")
+    assert result.returncode == 0, result.stderr
+    notes = json.loads((tmp_path / "s.json").read_text())["notes"]
+    assert len([note for note in notes if "no light reaches a surface" in note]) == 1
+
+
 def test_frames_of_a_blender_file_are_blenders(statistics):
     stats = statistics("--frames", "9-13x2,35")
     assert [frame["time_s"] for frame in stats["frames"]] == pytest.approx([-0.04, 0.04, 0.12, 1.0])
