@@ -162,7 +162,9 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
                           }
                       }};
     DrawnVpls drawn = add_vpls(graph, context, {only}, layout, ", next bounce", !splatted);
-    drawn.set.vpls = add_spacing(graph, context, drawn.set);
+    if (splatted) {
+        drawn.set.vpls = add_spacing(graph, context, drawn.set);
+    }
     return drawn;
 }
 

@@ -56,9 +56,9 @@ int source_rows() {
 }
 
 // Solid angle from the light of the area that the point stands for. Points are samples of the surfaces' area, so that in
-// the mean A cos / d^2 is right however near they are; only single ones are kept from outshining a whole map.
+// the mean A cos / d^2 is right however near they are; only single ones are kept from outshining whole maps.
 float texel_measure(ivec2 texel, PixelLight p) {
-    return min(max(-dot(p.normal, p.from_light), 0.0) * p.area / p.squared_distance, PI);
+    return min(max(-dot(p.normal, p.from_light), 0.0) * p.area / p.squared_distance, 32.0 * PI);
 }
 #endif
 

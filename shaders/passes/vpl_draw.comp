@@ -9,8 +9,14 @@
 // material of that one of them that lies nearest to their middle. The mean makes colours sum up to those of the
 // maps; the middle is a midpoint rule, far more exact than a random place. Runs once for each light source; a cell
 // belongs to one, and a source has as many as its part of the flux, to one cell.
+//
+// STRIPS: rows are patches of surface in the order of a curve, and a cell is a run of whole rows: what lies there has
+// received its light from all lights of the bounce before.
 #ifdef FROM_IRSM
 #include "lib/irsm.glsl"
+#ifndef SPLATTED
+#define STRIPS
+#endif
 #else
 #define READ_RSM
 #include "lib/vpl_importance.glsl"
@@ -62,6 +68,19 @@ int find_row(float value) {
     }
     return low;
 }
+
+#ifdef STRIPS
+// The same with the part of the row that lies before the value.
+float row_at(float value) {
+    int row = find_row(value);
+    float before = row == 0 ? 0.0 : running_sums[row - 1];
+    return float(row) + clamp((value - before) / max(running_sums[row] - before, 1e-30), 0.0, 1.0);
+}
+
+// A light bounded by the whole disk it stands for sends too little sideways; without the near field of a first bounce
+// nothing puts that back. docs/papers/imperfect_shadow_maps.md has the measurement.
+const float BOUNDED_SHARE = 0.4;
+#endif
 
 int find_texel(int first, int size, float value) {
     int low = 0;
@@ -121,8 +140,13 @@ void main() {
     int n = layout_.x;
     int subset = index / layout_.y;
     int k = index % layout_.y;
+#ifdef STRIPS
+    ivec2 cell = ivec2(0, k * n * n + subset);
+    vec2 cells = vec2(1.0, maps.x);
+#else
     ivec2 cell = ivec2(k % layout_.z, k / layout_.z) * n + ivec2(subset % n, subset / n);
     vec2 cells = vec2(layout_.z * n, layout_.y / layout_.z * n);
+#endif
     // Where sources meet within a row of cells each takes its part of the columns, and all of its cells' points lie in
     // its own map.
     float decider = (float(shuffled(cell.x, int(cells.x))) + 0.5) / cells.x;
@@ -135,6 +159,8 @@ void main() {
     float texels = total / (float(maps.x) * float(CHILDREN));  // over importance: texels a child stands for
     PixelLight children[CHILDREN];
     float measures[CHILDREN];
+    float fluxes[CHILDREN];
+    float flux = 0.0;
     for (int i = 0; i < CHILDREN; ++i) {
         vec2 h = vec2(radical_inverse(2u, uint(i)), radical_inverse(3u, uint(i))) + 0.5 / float(CHILDREN);
         float weight;
@@ -144,56 +170,54 @@ void main() {
         load_pixel_light(texel, layer, children[i]);
         float importance = texel_importance(texel, layer) * weight;
         measures[i] = importance > 0.0 ? texel_measure(texel, children[i]) * texels / importance : 0.0;
-    }
-#ifdef FROM_IRSM
-    // What a cell holds may lie anywhere along its strip, on either side of a wall: the light stands where one child
-    // does, picked by flux, and has the flux of all.
-    float fluxes[CHILDREN];
-    float flux = 0.0;
-    for (int i = 0; i < CHILDREN; ++i) {
         fluxes[i] = importance_density(children[i].color, children[i].metallic, children[i].arriving) * measures[i];
         flux += fluxes[i];
     }
-    float wanted = float(hash(uint(index))) * (1.0 / 4294967296.0) * flux;
+    // A cell may lie across an edge. One child, picked by flux, picks the surface, so that in the mean every surface
+    // has its due; the light then stands in the middle of those that lie on it.
+    float wanted = (float(hash(uint(index)) % uint(CHILDREN)) + 0.5) / float(CHILDREN) * flux;
+#ifdef STRIPS
+    // Where strips one after the other lie across the same edge, they take turns.
+    wanted = radical_inverse(2u, uint(cell.y)) * flux;
+#endif
     int picked = 0;
     float sum = 0.0;
     for (int i = 0; i < CHILDREN; ++i) {
         picked = sum <= wanted && fluxes[i] > 0.0 ? i : picked;
         sum += fluxes[i];
     }
-    GpuVpl vpl = make_vpl(children[picked], measures[picked] * flux / max(fluxes[picked], 1e-30));
-    float area = 0.0;         // passes/vpl_spacing.comp fills it in
-    float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
-#else
-    // A cell may lie across an edge. One child picks the surface, so that in the mean every surface has its due;
-    // the light then stands in the middle of those that lie on it.
-    PixelLight chosen = children[hash(uint(index)) % uint(CHILDREN)];
+    PixelLight chosen = children[picked];
+    // Sums over the members.
     vec3 center = vec3(0.0);
-    vec3 color = vec3(0.0);
-    float metal = 0.0;  // metallic, weighed by what the colour sends
-    float sent = 0.0;
     vec3 normal = vec3(0.0);
+    vec3 arriving = vec3(0.0);
+    vec3 reflected = vec3(0.0);
+    float metal = 0.0;  // metallic, weighed by what is reflected
     float area = 0.0;
     float measure = 0.0;
-    float members = 0.0;
+    float member_flux = 0.0;
     bool member[CHILDREN];
     for (int i = 0; i < CHILDREN; ++i) {
         vec3 d = children[i].position - chosen.position;
-        member[i] = dot(children[i].normal, chosen.normal) > 0.9 &&
+        member[i] = fluxes[i] > 0.0 && dot(children[i].normal, chosen.normal) > 0.9 &&
                     abs(dot(d, chosen.normal)) <= 0.2 * length(d) + 1e-5;
         if (member[i]) {
-            members += 1.0;
-            center += children[i].position;
-            normal += children[i].normal;
-            color += children[i].color * measures[i];
-            float part = dot(children[i].color, vec3(1.0)) * measures[i];
-            metal += part * children[i].metallic;
-            sent += part;
-            measure += measures[i];
+            vec3 part = children[i].color * children[i].arriving * measures[i];
+            center += children[i].position * fluxes[i];
+            normal += children[i].normal * fluxes[i];
+            arriving += children[i].arriving * measures[i];
+            reflected += part;
+            metal += dot(part, vec3(1.0)) * children[i].metallic;
             area += surface_area(children[i], measures[i]);
+            measure += measures[i];
+            member_flux += fluxes[i];
         }
     }
-    center /= members;
+    if (!(member_flux > 0.0)) {
+        drawn[index] = dark_vpl();
+        return;
+    }
+    center /= member_flux;
     PixelLight middle = chosen;
     float least = 1e30;
     for (int i = 0; i < CHILDREN; ++i) {
@@ -203,23 +227,36 @@ void main() {
             middle = children[i];
         }
     }
-    float all = float(CHILDREN) / members;
-    middle.color = color / max(measure, 1e-30);
+    // Members stand for the others as well.
+    float all = flux / member_flux;
+    float sent = dot(reflected, vec3(1.0));
+    middle.color = reflected / max(arriving, vec3(1e-30));
+    middle.arriving = arriving / measure;
     // So that what is reflected diffusely sums up as well.
     middle.metallic = sent > 0.0 ? metal / sent : middle.metallic;
     GpuVpl vpl = make_vpl(middle, measure * all);
-    area *= all;
 #ifdef GLOSSY
     // Its lobe is the mean over all the surface it stands for (Toksvig 2005, "Mipmapping Normal Maps"): normals that vary
     // by s^2 along each axis have a mean of length 1 - s^2 and add 2 s^2 to alpha^2.
-    float spread = 2.0 * (1.0 - length(normal) / members);
-#if MAP_KIND != MAP_ORTHOGRAPHIC
+    float spread = 2.0 * (1.0 - length(normal) / member_flux);
+#if !defined(FROM_IRSM) && MAP_KIND != MAP_ORTHOGRAPHIC
     spread += WIDENING * measure * all;  // arriving directions: measure is a solid angle
 #endif
     float gain = widening_gain(spread);
     vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
     vpl.arriving.rgb *= gain;
 #endif
+#if defined(STRIPS)
+    // A row is an equal part of the surfaces, and a cell so many rows.
+    area = BOUNDED_SHARE * (row_at(high) - row_at(low)) * middle.area;
+#elif defined(FROM_IRSM)
+    area = 0.0;  // passes/vpl_spacing.comp fills it in
+#else
+    area *= all;
+#endif
+#ifdef FROM_IRSM
+    float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
+#else
     float near_radius = NEAR_RADIUS * sqrt(area);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;

@@ -48,12 +48,10 @@ TEST_F(Bounces, OfAFurnaceAreAGeometricSeries) {
                 sum += static_cast<double>(albedo) / pi * std::pow(static_cast<double>(albedo), bounces) *
                        100.0 / 24.0;
                 const double mean = wall_mean(scene, bounces, splat);
-                // Bounding 1/d^2 along the edges takes 2 % of the first bounce, which the near field does not
-                // give back in full, and, without a near field, 7 % of each further one; splatted maps find
-                // more there.
-                EXPECT_NEAR(mean / sum, 1.0, bounces == 1 || splat ? 0.025 : 0.07)
+                // Bounding 1/d^2 takes 1 % along the edges. Splatted maps have disks twice as wide as their
+                // points' areas, so that no light is lost between them, and find too much a bounce.
+                EXPECT_NEAR(mean / sum, 1.0, splat ? 0.05 : 0.015)
                     << "albedo " << albedo << ", " << bounces << " bounces, splatted " << splat;
-                EXPECT_GT(mean / sum, bounces == 1 ? 0.975 : 0.93);
             }
         }
     }

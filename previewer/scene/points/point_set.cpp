@@ -2,6 +2,7 @@
 #include "scene/points/point_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -111,7 +112,33 @@ std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>&
     return out;
 }
 
-// block: runs of so many points are sorted along the curve; 0 leaves them in the sequence's order.
+// Barycentric weights of a triangle's second and third corner.
+using Place = glm::dvec2;
+
+// Halvings of a triangle along the curve: a large one is cut finer than the rows of a map's points.
+constexpr int k_halvings = 16;
+
+// The piece of a triangle, as its corners, at a part t of the way along Sierpinski's curve: the side between
+// the ends is halved, and one half after the other followed. Pieces of equal length are of equal area.
+std::array<Place, 3> along_curve(double t) {
+    std::array<Place, 3> piece = {Place(0.0, 0.0), Place(1.0, 0.0), Place(0.0, 1.0)};
+    auto& [enter, apex, leave] = piece;
+    for (int i = 0; i < k_halvings; ++i) {
+        const Place middle = 0.5 * (enter + leave);
+        t *= 2.0;
+        if (t < 1.0) {
+            leave = apex;
+        } else {
+            enter = apex;
+            t -= 1.0;
+        }
+        apex = middle;
+    }
+    return piece;
+}
+
+// block: runs of so many points are sorted along a curve over all surfaces, along which u.x is the way; 0
+// leaves them in the sequence's order, and u.x picks the triangle alone.
 std::vector<PointSample> sample_sequence(const std::vector<Sampled>& parts, size_t count, size_t block,
                                          uint32_t seed, double& area_m2) {
     std::vector<double> cumulative;
@@ -142,15 +169,22 @@ std::vector<PointSample> sample_sequence(const std::vector<Sampled>& parts, size
         const Sampled& sampled = parts[p];
         const AreaTable& table = *sampled.part->table;
         const std::vector<double>& areas = sampled.cumulative.empty() ? table.cumulative : sampled.cumulative;
-        const size_t t = find(areas, (place - before(cumulative, p)) / sampled.area_m2 * areas.back());
+        const double in_part = (place - before(cumulative, p)) / sampled.area_m2 * areas.back();
+        const size_t t = find(areas, in_part);
         const size_t triangle = sampled.triangles.empty() ? t : sampled.triangles[t];
         // Uniform over a triangle: Osada et al. 2002, "Shape Distributions".
         const double root = std::sqrt(u.y);
         PointSample sample;
         sample.surface = sampled.part->surface;
         sample.triangle = table.triangles[triangle];
-        sample.second = static_cast<float>(root * (1.0 - u.z));
-        sample.third = static_cast<float>(root * u.z);
+        Place at(root * (1.0 - u.z), root * u.z);
+        if (block > 0) {
+            const double begin = before(areas, t);
+            const auto [a, b, c] = along_curve(std::clamp((in_part - begin) / (areas[t] - begin), 0.0, 1.0));
+            at = a + (b - a) * at.x + (c - a) * at.y;
+        }
+        sample.second = static_cast<float>(at.x);
+        sample.third = static_cast<float>(at.y);
         sample.share =
             static_cast<float>(sum / static_cast<double>(count) / triangle_area_m2(*sampled.part, triangle));
         sample.flat = table.flat;

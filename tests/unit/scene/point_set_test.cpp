@@ -210,6 +210,42 @@ TEST(PointSet, RunsOfReflectorsFollowOneCurve) {
     EXPECT_LT(near, 0.4 * any);
 }
 
+TEST(PointSet, RowsOfReflectorsArePatchesOfALargeTriangle) {
+    Scene scene;
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    p.indices = {0, 1, 2};
+    place_mesh(scene, add_mesh(scene, p));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    constexpr size_t rows = 128;
+    constexpr size_t runs = 64;
+    PointCounts counts;
+    counts.reflectors_a_map = rows;
+    counts.reflectors = rows * runs;
+    const PointSet set = sample_points(parts, none_on_hull(parts), counts);
+    ASSERT_EQ(set.reflectors.size(), counts.reflectors);
+    // 128 = 2^7 halvings cut the right triangle of area 1/2 into ones of legs 1/8 and sides of sqrt(2)/8.
+    const double widest = std::sqrt(2.0) / 8.0 + 1e-6;
+    double mean_x = 0.0;
+    for (size_t j = 0; j < rows; ++j) {
+        glm::dvec2 low(1.0);
+        glm::dvec2 high(0.0);
+        for (size_t run = 0; run < runs; ++run) {
+            const PointSample& point = set.reflectors[run * rows + j];
+            const glm::dvec2 at(point.second, point.third);
+            EXPECT_GE(std::min(at.x, at.y), 0.0);
+            EXPECT_LE(at.x + at.y, 1.0 + 1e-6);
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+            mean_x += at.x / static_cast<double>(rows * runs);
+        }
+        EXPECT_LE(std::max(high.x - low.x, high.y - low.y), widest) << "row " << j;
+        // Points of a row fill its patch, and do not lie on one another.
+        EXPECT_GT(std::max(high.x - low.x, high.y - low.y), 0.5 / 8.0) << "row " << j;
+    }
+    EXPECT_NEAR(mean_x, 1.0 / 3.0, 2e-3) << "the triangle's centroid; random points would stray by 2.6e-3";
+}
+
 TEST(PointSet, FlatPointsLieOnPlanes) {
     Scene scene;
     const int soup = place_mesh(scene, add_mesh(scene, triangle_soup(300, 2)));
