@@ -42,6 +42,8 @@ void dispatch_splats(const VplSet& set) {
     finish_writes();
 }
 
+static_assert(scene::k_most_large_triangles == MOST_TRIANGLES);
+
 TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs,
                             const VplSet& set) {
     TextureHandle out;
@@ -52,18 +54,14 @@ TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const
         return [context, inputs, set, out](const PassResources& resources) {
             bind_set(context, resources, set);
             resources.buffer(inputs.scene.triangles).bind_storage(SSBO_TRIANGLES);
-            resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
+            resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             const auto tiles = static_cast<GLuint>(set.map_size / GROUP_MAP_TILE);
-            gl::Defines defines;
-            for (int first = 0; first < inputs.large_triangles; first += TRIANGLE_CHUNK) {
-                defines["TRIANGLE_COUNT"] =
-                    std::to_string(std::min(TRIANGLE_CHUNK, inputs.large_triangles - first));
-                context.programs.compute("passes/ism_triangles.comp", defines).use();
-                glUniform1i(0, first);
-                glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
-                finish_writes();
-                defines["NEXT_TRIANGLES"] = "1";
-            }
+            context.programs
+                .compute("passes/ism_triangles.comp",
+                         {{"TRIANGLE_COUNT", std::to_string(inputs.large_triangles)}})
+                .use();
+            glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
+            finish_writes();
         };
     });
     return out;

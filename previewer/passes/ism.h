@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/point_update.h"
+#include "scene/points/point_set.h"
 
 namespace bounce::passes {
 

@@ -90,8 +90,8 @@
 #define AA_SAMPLES 4
 // One group splats the points of one imperfect shadow map.
 #define GROUP_SPLAT 128
-// Tiles of such a map, and the triangles that one dispatch draws into it.
+// Tiles of such a map, and the triangles that are drawn into it at most.
 #define GROUP_MAP_TILE 16
-#define TRIANGLE_CHUNK 16
+#define MOST_TRIANGLES 64
 
 #endif
