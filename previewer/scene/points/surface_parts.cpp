@@ -22,6 +22,9 @@ size_t at(int index) {
 // A flat piece is followed on its own from this part of the scene's area on: smaller ones cost more to look
 // after than their points cost.
 constexpr double k_least_flat_share = 0.002;
+// Triangles of one plane are taken together from here on (flat_cover.h). Smaller ones are never large
+// triangles, but where points are many and most of the scene is on its hull.
+constexpr double k_least_cover_share = 0.0002;
 
 // Triangles count as one plane where normals agree to about half a degree and offsets to this part of the
 // primitive's size.
@@ -286,29 +289,54 @@ class Cutter {
                                     bool may_be_flat) const {
         Cut cut;
         std::vector<uint32_t> rest;
+        std::vector<uint32_t> uncovered;  // of the rest
+        Triangles covers;                 // in place of the others
         for (std::vector<uint32_t>& triangles : triangles_by_plane(primitive, positions)) {
-            const bool large = may_be_flat && sum_of_areas(primitive, positions, triangles) * scale >=
-                                                  k_least_flat_share * total_;
-            if (!large) {
-                rest.insert(rest.end(), triangles.begin(), triangles.end());
+            const double share =
+                may_be_flat ? sum_of_areas(primitive, positions, triangles) * scale / total_ : 0.0;
+            if (share >= k_least_flat_share) {
+                cut.push_back(flat_piece(primitive, positions, corners_of(primitive, triangles)));
                 continue;
             }
-            cut.push_back(flat_piece(primitive, positions, corners_of(primitive, triangles)));
+            rest.insert(rest.end(), triangles.begin(), triangles.end());
+            const Triangles cover = share >= k_least_cover_share
+                                        ? find_cover(primitive, positions, corners_of(primitive, triangles))
+                                        : Triangles{};
+            covers.insert(covers.end(), cover.begin(), cover.end());
+            if (cover.empty()) {
+                uncovered.insert(uncovered.end(), triangles.begin(), triangles.end());
+            }
         }
         if (!rest.empty()) {
-            std::sort(rest.begin(), rest.end());
-            const auto table =
-                std::make_shared<const AreaTable>(make_table(positions, corners_of(primitive, rest)));
-            cut.push_back({table, table});
+            cut.push_back(rest_piece(primitive, positions, std::move(rest), std::move(uncovered), covers));
         }
         return cut;
     }
 
+    [[nodiscard]] static Piece rest_piece(const Primitive& primitive, const Positions& positions,
+                                          std::vector<uint32_t> rest, std::vector<uint32_t> uncovered,
+                                          const Triangles& covers) {
+        const auto table_of = [&](std::vector<uint32_t> triangles, const Triangles& more) {
+            std::sort(triangles.begin(), triangles.end());
+            Triangles all = corners_of(primitive, triangles);
+            all.insert(all.end(), more.begin(), more.end());
+            return std::make_shared<const AreaTable>(make_table(positions, std::move(all)));
+        };
+        Piece piece{table_of(std::move(rest), {}), nullptr};
+        piece.cover = covers.empty() ? piece.table : table_of(std::move(uncovered), covers);
+        return piece;
+    }
+
+    // Where parts of triangles are not there, points tell which, by the coordinates of the triangle's own
+    // corners: those have no cover.
+    [[nodiscard]] Triangles find_cover(const Primitive& primitive, const Positions& positions,
+                                       const Triangles& triangles) const {
+        return cut_out(primitive) ? Triangles{} : flat_cover(positions, triangles);
+    }
+
     [[nodiscard]] Piece flat_piece(const Primitive& primitive, const Positions& positions,
                                    Triangles triangles) const {
-        // Where parts of triangles are not there, points tell which, by the coordinates of the triangle's own
-        // corners.
-        Triangles cover = cut_out(primitive) ? Triangles{} : flat_cover(positions, triangles);
+        Triangles cover = find_cover(primitive, positions, triangles);
         AreaTable table = make_table(positions, std::move(triangles));
         const auto model = [&](uint32_t vertex) { return glm::dvec3(primitive.positions[vertex]); };
         const glm::uvec3 first = table.triangles.front();

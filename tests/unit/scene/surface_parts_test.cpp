@@ -158,6 +158,20 @@ TEST(SurfaceParts, FinelyCutPlanesHaveACover) {
     EXPECT_EQ(plain.parts[0].cover, plain.parts[0].table) << "nothing to take together";
 }
 
+TEST(SurfaceParts, SmallPlanesAreCoveredWithinTheRest) {
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, square(30.0F)));
+    // Of its faces one pair is a hundredth of the square, the others a thousandth.
+    place_mesh(scene, add_mesh(scene, refine(box({0.15F, 1.5F, 1.5F}), refinement_by(100.0))));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    ASSERT_EQ(parts.parts.size(), 4U) << "the square, two faces, the rest";
+    const SurfacePart& rest = parts.parts[3];
+    EXPECT_FALSE(rest.table->flat);
+    EXPECT_EQ(rest.table->triangles.size(), 800U);
+    EXPECT_EQ(rest.cover->triangles.size(), 8U);
+    EXPECT_NEAR(rest.cover->cumulative.back() / rest.table->cumulative.back(), 1.0, 1e-6);
+}
+
 TEST(SurfaceParts, ScenesWithoutAreaHaveNoParts) {
     EXPECT_TRUE(surface_parts({}, k_all_animations).parts.empty());
     Scene scene;
