@@ -123,6 +123,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
     struct Item {
         DrawBatch batch;
         GpuDraw draw;
+        DrawBox box;
     };
     std::vector<Item> items;
     has_emission_ = has_disney_ = has_specular_ = false;
@@ -155,6 +156,9 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             item.batch.index_count = range.index_count;
             item.batch.base_vertex = range.base_vertex;
             item.draw = pack_draw(transform, material_index);
+            scene::Bounds world;
+            scene::grow_by_primitive(world, pose, instance, primitive.bounds);
+            item.box = gpu::draw_box(world, space_);
             items.push_back(item);
             has_emission_ |= item.batch.features.emission;
             has_disney_ |= material.diffuse == scene::DiffuseModel::disney;
@@ -171,6 +175,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                      [&](const Item& a, const Item& b) { return key(a) < key(b); });
 
     batches_.clear();
+    draw_boxes_.clear();
     std::vector<GpuDraw> draws;
     for (size_t i = 0; i < items.size(); ++i) {
         if (i == 0 || key(items[i]) != key(items[i - 1])) {
@@ -179,6 +184,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         }
         ++batches_.back().draw_count;
         draws.push_back(items[i].draw);
+        draw_boxes_.push_back(items[i].box);
     }
     if (draws.size() > draw_capacity_ || !draws_) {
         draw_capacity_ = std::max<size_t>(draws.size(), 1);
@@ -217,12 +223,12 @@ void GpuScene::bind_material(const DrawBatch& batch) const {
     if (batch.features.emission_texture) textures_.bind(TEX_EMISSION, material.emission_texture, true);
 }
 
-void GpuScene::draw(const DrawBatch& batch) {
+void GpuScene::draw(const DrawBatch& batch, uint32_t first, uint32_t count) {
     const auto* offset = reinterpret_cast<const void*>(  // NOLINT: OpenGL takes the offset as a pointer
         static_cast<uintptr_t>(batch.first_index) * sizeof(uint32_t));
-    glDrawElementsInstancedBaseVertexBaseInstance(
-        GL_TRIANGLES, static_cast<GLsizei>(batch.index_count), GL_UNSIGNED_INT, offset,
-        static_cast<GLsizei>(batch.draw_count), batch.base_vertex, batch.first_draw);
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(batch.index_count),
+                                                  GL_UNSIGNED_INT, offset, static_cast<GLsizei>(count),
+                                                  batch.base_vertex, first);
 }
 
 }  // namespace bounce::gpu

@@ -5,6 +5,7 @@
 
 #include "gl/buffer.h"
 #include "gl/texture.h"
+#include "gpu/draw_box.h"
 #include "gpu/material_textures.h"
 #include "gpu/render_space.h"
 #include "gpu/shared_types.h"
@@ -55,6 +56,8 @@ class GpuScene {
     // Bounds of the pose, world space.
     [[nodiscard]] const scene::Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const std::vector<DrawBatch>& batches() const { return batches_; }
+    // Of a draw, numbered as in DrawBatch::first_draw.
+    [[nodiscard]] const DrawBox& draw_box(uint32_t draw) const { return draw_boxes_[draw]; }
     [[nodiscard]] bool deforms() const { return !vertices_.jobs().empty(); }
     [[nodiscard]] bool has_emission() const { return has_emission_; }
     [[nodiscard]] bool has_disney_diffuse() const { return has_disney_; }
@@ -69,7 +72,8 @@ class GpuScene {
     void bind_vertex_array() const { vertices_.bind_vertex_array(); }
     void bind_single(const DrawBatch& batch) const { single_draws_.bind(UBO_DRAW, batch.single); }
     void bind_material(const DrawBatch& batch) const;
-    static void draw(const DrawBatch& batch);
+    // Only `count` of the batch's draws, from `first` on (numbered as first_draw).
+    static void draw(const DrawBatch& batch, uint32_t first, uint32_t count);
 
   private:
     void upload_materials(const std::vector<scene::Material>& materials);
@@ -80,6 +84,7 @@ class GpuScene {
     VertexStore vertices_;
     MaterialTextures textures_;
     std::vector<DrawBatch> batches_;
+    std::vector<DrawBox> draw_boxes_;
     gl::Buffer draws_;
     UniformArena single_draws_;
     gl::Buffer draw_ids_;

@@ -54,16 +54,14 @@ double PointStore::occluding_area_m2(const scene::Pose& pose, bool drop_hull) {
     return area;
 }
 
-glm::uvec4 PointStore::place(uint32_t surface_index, uint32_t triangle, const VertexStore& vertices) const {
+glm::uvec4 PointStore::place(uint32_t surface_index, const glm::uvec3& triangle,
+                             const VertexStore& vertices) const {
     const scene::PointSurface& surface = parts_.surfaces[surface_index];
-    const std::vector<uint32_t>& indices =
-        scene_.meshes[at(surface.mesh)].primitives[at(surface.primitive)].indices;
     const PrimitiveRange range = vertices.node_deforms(surface.node)
                                      ? vertices.deformed_range(surface.node, surface.primitive)
                                      : vertices.range(surface.mesh, surface.primitive);
     const auto base = static_cast<uint32_t>(range.base_vertex);
-    const uint32_t* corner = &indices[3 * static_cast<size_t>(triangle)];
-    return {base + corner[0], base + corner[1], base + corner[2], surface_index};
+    return {base + triangle, surface_index};
 }
 
 void PointStore::upload(const VertexStore& vertices) {

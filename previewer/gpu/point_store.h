@@ -54,7 +54,8 @@ class PointStore {
     void bind_for_triangle_update() const;
 
   private:
-    [[nodiscard]] glm::uvec4 place(uint32_t surface, uint32_t triangle, const VertexStore& vertices) const;
+    [[nodiscard]] glm::uvec4 place(uint32_t surface, const glm::uvec3& triangle,
+                                   const VertexStore& vertices) const;
     void upload_materials();
     void upload(const VertexStore& vertices);
     void find_changes(const std::vector<GpuPointSurface>& now);

@@ -31,20 +31,32 @@ gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind) {
     return defines;
 }
 
-}  // namespace
+struct Run {
+    uint32_t first;
+    uint32_t count;
+};
 
-gl::Defines light_defines(const LightPass& light) {
-    return {{"MAP_KIND", std::to_string(light.map_kind)}, {"PROFILE", std::to_string(light.profile)}};
+// The batch's draws that the view may see; all of them without a view.
+std::vector<Run> seen_draws(const gpu::GpuScene& scene, const gpu::DrawBatch& batch, const View* view) {
+    if (view == nullptr) {
+        return {{batch.first_draw, batch.draw_count}};
+    }
+    std::vector<Run> out;
+    for (uint32_t draw = batch.first_draw; draw < batch.first_draw + batch.draw_count; ++draw) {
+        if (!gpu::may_be_seen(scene.draw_box(draw), view->clip_from_render)) {
+            continue;
+        }
+        if (!out.empty() && out.back().first + out.back().count == draw) {
+            ++out.back().count;
+        } else {
+            out.push_back({draw, 1});
+        }
+    }
+    return out;
 }
 
-void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
-                const gl::Defines& defines) {
-    context.uniforms.bind(UBO_VIEW, view.uniforms);
-    draw_batches(context, view.mirrored, kind, fragment, defines);
-}
-
-void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
-                  const gl::Defines& defines) {
+void draw_batches(const PassContext& context, const View* view, bool mirrored, DrawKind kind,
+                  const std::string& fragment, const gl::Defines& defines) {
     context.scene.bind();
     glEnable(GL_DEPTH_TEST);
     // A light inside its own near plane must not see through what stands there.
@@ -52,6 +64,10 @@ void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, cons
         glEnable(GL_DEPTH_CLAMP);
     }
     for (const gpu::DrawBatch& batch : context.scene.batches()) {
+        const std::vector<Run> runs = seen_draws(context.scene, batch, view);
+        if (runs.empty()) {
+            continue;
+        }
         gl::Defines all = batch_defines(batch.features, kind);
         all.insert(defines.begin(), defines.end());
         if (batch.draw_count == 1) {
@@ -66,11 +82,30 @@ void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, cons
         } else {
             glDisable(GL_CULL_FACE);
         }
-        gpu::GpuScene::draw(batch);
+        for (const Run& run : runs) {
+            gpu::GpuScene::draw(batch, run.first, run.count);
+        }
     }
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace
+
+gl::Defines light_defines(const LightPass& light) {
+    return {{"MAP_KIND", std::to_string(light.map_kind)}, {"PROFILE", std::to_string(light.profile)}};
+}
+
+void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
+                const gl::Defines& defines) {
+    context.uniforms.bind(UBO_VIEW, view.uniforms);
+    draw_batches(context, &view, view.mirrored, kind, fragment, defines);
+}
+
+void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
+                  const gl::Defines& defines) {
+    draw_batches(context, nullptr, mirrored, kind, fragment, defines);
 }
 
 void dispatch_2d(int width, int height) {

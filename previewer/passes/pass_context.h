@@ -14,6 +14,7 @@ namespace bounce::passes {
 // One rasterised view of the scene.
 struct View {
     gpu::UniformArena::Slot uniforms;  // ViewUniforms
+    glm::mat4 clip_from_render{1.0F};  // as in these
     bool mirrored = false;             // the projection turns front faces into back faces
 };
 
@@ -44,12 +45,12 @@ struct PassContext {
 // MAP_KIND and PROFILE of a light, compiled in.
 [[nodiscard]] gl::Defines light_defines(const LightPass& light);
 
-// Draws every batch of the scene into the bound framebuffer. Programs are chosen by each batch's features;
-// depth_only batches take their fragment shader only where an alpha test needs it.
+// Draws the scene into the bound framebuffer, what the view may see of it. Programs are chosen by each
+// batch's features; depth_only batches take their fragment shader only where an alpha test needs it.
 enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth, seen_depth };
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
                 const gl::Defines& defines);
-// The same with ViewUniforms that the caller has bound.
+// All of the scene, with ViewUniforms that the caller has bound.
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
                   const gl::Defines& defines);
 

@@ -207,10 +207,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     uniforms_.clear();
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
                                                   settings.width, settings.height, gpu_scene_.space());
-    const auto view_slot = [&](const glm::mat4& clip_from_render) {
-        return uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)});
+    const auto make_view = [&](const glm::mat4& clip_from_render, bool mirrored) {
+        return passes::View{uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)}),
+                            clip_from_render, mirrored};
     };
-    const passes::View camera_view{view_slot(glm::mat4(camera.clip_from_render)), false};
+    const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), false);
 
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;
@@ -225,7 +226,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         pass.profile = setup.profile;
         pass.uniforms = uniforms_.add(setup.gpu);
         for (const LightFace& face : setup.faces) {
-            pass.faces.push_back({view_slot(face.clip_from_render), face.mirrored});
+            pass.faces.push_back(make_view(face.clip_from_render, face.mirrored));
         }
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);

@@ -3,6 +3,7 @@
 // What hides bounced light: one light on a wall against the closed form, a blocker, thin walls, a surface on
 // its own.
 #include "ism_fixture.h"
+#include "scene/refine.h"
 
 namespace bounce::test {
 namespace {
@@ -207,6 +208,24 @@ TEST_F(IsmVisibility, ASurfaceDoesNotHideItself) {
         settings.splat = splat;
         settings.ism_size = 256;
         EXPECT_GE(draw(scene, floor_camera(), settings).mean() / open.mean(), 0.85) << name(splat);
+    }
+}
+
+TEST_F(IsmVisibility, AFinelyCutWallHidesAsOneOfTwoTriangles) {
+    scene::Scene scene = corner_scene();
+    add_wall_spot(scene);
+    add_mesh_node(scene, add_box(scene, {0.1F, 0.8F, 0.6F}, add_diffuse(scene)), moved({-1.0, 0.1, 0.7}));
+    const Settings settings = with(Splat::disks, 64);
+    const Rendered coarse = draw(scene, floor_camera(), settings);
+    scene::refine_scene(scene, scene::refinement_by(30.0));
+    const Rendered fine = draw(scene, floor_camera(), settings);
+    EXPECT_EQ(coarse.report.large_triangles, 12U);
+    EXPECT_EQ(fine.report.large_triangles, 12U);
+    EXPECT_NEAR(fine.mean() / coarse.mean(), 1.0, 1e-3);
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            ASSERT_NEAR(fine.at(x, y).x, coarse.at(x, y).x, 0.02 * coarse.mean()) << x << ' ' << y;
+        }
     }
 }
 

@@ -97,8 +97,8 @@ class VplEnergy : public ::testing::Test {
             pass.profile = setup.profile;
             pass.uniforms = uniforms.add(setup.gpu);
             for (const LightFace& face : setup.faces) {
-                pass.faces.push_back(
-                    {uniforms.add(gpu::ViewUniforms{face.clip_from_render, {}}), face.mirrored});
+                pass.faces.push_back({uniforms.add(gpu::ViewUniforms{face.clip_from_render, {}}),
+                                      face.clip_from_render, face.mirrored});
             }
             pass.rsm_size = static_cast<int>(setup.gpu.map.x);
             sources.push_back({pass, passes::add_rsm(graph, context, pass)});

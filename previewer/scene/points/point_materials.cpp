@@ -126,7 +126,7 @@ class TextureReader {
         const Texture& texture = scene_.textures[at(ref.texture)];
         std::array<glm::vec2, 3> corner;
         for (size_t k = 0; k < 3; ++k) {
-            const glm::vec2& uv = uvs[primitive.indices[3 * static_cast<size_t>(point.triangle) + k]];
+            const glm::vec2& uv = uvs[point.triangle[static_cast<int>(k)]];
             corner[k] = glm::vec2(ref.uv_transform * glm::vec3(uv, 1.0F));
         }
         const glm::vec2 ab = corner[1] - corner[0];
@@ -164,9 +164,9 @@ glm::vec4 vertex_color(const Primitive& primitive, const PointSample& point) {
     if (primitive.colors.empty()) {
         return glm::vec4(1.0F);
     }
-    const uint32_t* corner = &primitive.indices[3 * static_cast<size_t>(point.triangle)];
-    return primitive.colors[corner[0]] * (1.0F - point.second - point.third) +
-           primitive.colors[corner[1]] * point.second + primitive.colors[corner[2]] * point.third;
+    const glm::uvec3& corner = point.triangle;
+    return primitive.colors[corner.x] * (1.0F - point.second - point.third) +
+           primitive.colors[corner.y] * point.second + primitive.colors[corner.z] * point.third;
 }
 
 }  // namespace

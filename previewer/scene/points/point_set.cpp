@@ -26,15 +26,15 @@ double before(const std::vector<double>& cumulative, size_t i) {
     return i == 0 ? 0.0 : cumulative[i - 1];
 }
 
-double triangle_area_m2(const SurfacePart& part, size_t i) {
-    const std::vector<double>& areas = part.table->cumulative;
+double triangle_area_m2(const SurfacePart& part, const AreaTable& table, size_t i) {
+    const std::vector<double>& areas = table.cumulative;
     return (areas[i] - before(areas, i)) / areas.back() * part.area_m2;
 }
 
 struct PlacedTriangle {
     double area_m2;
     size_t part;
-    size_t index;  // into the part's table
+    size_t index;  // into the part's cover
 };
 
 // Triangles to draw as they are: those whose share of the points is at least k_large_points, where the points
@@ -51,8 +51,8 @@ std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vec
     for (size_t p = 0; p < parts.parts.size(); ++p) {
         const SurfacePart& part = parts.parts[p];
         for (size_t i = 0;
-             use[p] && !part.cut_out && part.area_m2 >= least && i < part.table->triangles.size(); ++i) {
-            if (const double area = triangle_area_m2(part, i); area >= least) {
+             use[p] && !part.cut_out && part.area_m2 >= least && i < part.cover->triangles.size(); ++i) {
+            if (const double area = triangle_area_m2(part, *part.cover, i); area >= least) {
                 candidates.push_back({area, p, i});
             }
         }
@@ -74,17 +74,19 @@ std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vec
 // Parts as they are sampled: those in use, without their large triangles.
 struct Sampled {
     const SurfacePart* part;
-    std::vector<uint32_t> triangles;  // into the part's table; empty: all of it
+    const AreaTable* table;
+    std::vector<uint32_t> triangles;  // into the table; empty: all of it
     std::vector<double> cumulative;   // parallel
     double area_m2;
 };
 
+// What may hide something, by the parts' covers.
 std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>& use,
                              const std::vector<PlacedTriangle>& large) {
     std::map<size_t, std::vector<bool>> dropped;
     for (const PlacedTriangle& triangle : large) {
         std::vector<bool>& drop = dropped[triangle.part];
-        drop.resize(parts.parts[triangle.part].table->triangles.size());
+        drop.resize(parts.parts[triangle.part].cover->triangles.size());
         drop[triangle.index] = true;
     }
     std::vector<Sampled> out;
@@ -93,12 +95,12 @@ std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>&
             continue;
         }
         const SurfacePart& part = parts.parts[p];
-        Sampled sampled{&part, {}, {}, part.area_m2};
+        Sampled sampled{&part, part.cover.get(), {}, {}, part.area_m2};
         if (const auto drop = dropped.find(p); drop != dropped.end()) {
             double sum = 0.0;
             for (size_t i = 0; i < drop->second.size(); ++i) {
                 if (!drop->second[i]) {
-                    sum += triangle_area_m2(part, i);
+                    sum += triangle_area_m2(part, *part.cover, i);
                     sampled.triangles.push_back(static_cast<uint32_t>(i));
                     sampled.cumulative.push_back(sum);
                 }
@@ -108,6 +110,14 @@ std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>&
         if (sampled.area_m2 > 0.0) {
             out.push_back(std::move(sampled));
         }
+    }
+    return out;
+}
+
+std::vector<Sampled> all_of(const SurfaceParts& parts) {
+    std::vector<Sampled> out;
+    for (const SurfacePart& part : parts.parts) {
+        out.push_back({&part, part.table.get(), {}, {}, part.area_m2});
     }
     return out;
 }
@@ -167,7 +177,7 @@ std::vector<PointSample> sample_sequence(const std::vector<Sampled>& parts, size
         const double place = u.x * sum;
         const size_t p = find(cumulative, place);
         const Sampled& sampled = parts[p];
-        const AreaTable& table = *sampled.part->table;
+        const AreaTable& table = *sampled.table;
         const std::vector<double>& areas = sampled.cumulative.empty() ? table.cumulative : sampled.cumulative;
         const double in_part = (place - before(cumulative, p)) / sampled.area_m2 * areas.back();
         const size_t t = find(areas, in_part);
@@ -185,8 +195,8 @@ std::vector<PointSample> sample_sequence(const std::vector<Sampled>& parts, size
         }
         sample.second = static_cast<float>(at.x);
         sample.third = static_cast<float>(at.y);
-        sample.share =
-            static_cast<float>(sum / static_cast<double>(count) / triangle_area_m2(*sampled.part, triangle));
+        sample.share = static_cast<float>(sum / static_cast<double>(count) /
+                                          triangle_area_m2(*sampled.part, table, triangle));
         sample.flat = table.flat;
         out.push_back(sample);
     }
@@ -206,15 +216,14 @@ PointSet sample_points(const SurfaceParts& parts, const std::vector<bool>& on_hu
                                                       : std::vector<PlacedTriangle>{};
         for (const PlacedTriangle& triangle : large) {
             const SurfacePart& part = parts.parts[triangle.part];
-            set.large.push_back({part.surface, part.table->triangles[triangle.index]});
+            set.large.push_back({part.surface, part.cover->triangles[triangle.index]});
         }
         set.occluders =
             sample_sequence(without(parts, hides, large), counts.occluders, 0, 1, set.occluder_area_m2);
     }
     if (counts.reflectors > 0) {
-        const std::vector<bool> all(parts.parts.size(), true);
-        set.reflectors = sample_sequence(without(parts, all, {}), counts.reflectors, counts.reflectors_a_map,
-                                         2, set.reflector_area_m2);
+        set.reflectors = sample_sequence(all_of(parts), counts.reflectors, counts.reflectors_a_map, 2,
+                                         set.reflector_area_m2);
     }
     return set;
 }

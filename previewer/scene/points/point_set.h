@@ -10,9 +10,9 @@ namespace bounce::scene {
 
 // A place on a surface that moves with its triangle.
 struct PointSample {
-    uint32_t surface = 0;   // into SurfaceParts::surfaces
-    uint32_t triangle = 0;  // of its primitive
-    float second = 0.0F;    // barycentric weights of the triangle's second and third corner
+    uint32_t surface = 0;     // into SurfaceParts::surfaces
+    glm::uvec3 triangle{0U};  // its corners: vertices of the primitive
+    float second = 0.0F;      // barycentric weights of the triangle's second and third corner
     float third = 0.0F;
     float share =
         0.0F;           // of its triangle's area, that the point stands for within its sequence; may exceed 1
@@ -21,7 +21,7 @@ struct PointSample {
 
 struct SurfaceTriangle {
     uint32_t surface = 0;
-    uint32_t triangle = 0;
+    glm::uvec3 triangle{0U};  // as above
 };
 
 // What stands for the scene's surfaces where visibility is asked for.
@@ -32,8 +32,8 @@ struct SurfaceTriangle {
 struct PointSet {
     std::vector<SurfaceTriangle>
         large;  // occluders that would have many points in every map: drawn as they are
-    std::vector<PointSample> occluders;   // on the other surfaces that may hide something
-    std::vector<PointSample> reflectors;  // on all surfaces
+    std::vector<PointSample> occluders;   // on the other surfaces that may hide something, by their covers
+    std::vector<PointSample> reflectors;  // on all surfaces, by the primitives' own triangles
     double occluder_area_m2 = 0.0;        // that the points stand for
     double reflector_area_m2 = 0.0;
 };

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "scene/points/deformed_positions.h"
+#include "scene/points/flat_cover.h"
 #include "scene/primitive_bounds.h"
 
 namespace bounce::scene {
@@ -21,6 +22,9 @@ size_t at(int index) {
 // A flat piece is followed on its own from this part of the scene's area on: smaller ones cost more to look
 // after than their points cost.
 constexpr double k_least_flat_share = 0.002;
+// Triangles of one plane are taken together from here on (flat_cover.h). Smaller ones are never large
+// triangles, but where points are many and most of the scene is on its hull.
+constexpr double k_least_cover_share = 0.0002;
 
 // Triangles count as one plane where normals agree to about half a degree and offsets to this part of the
 // primitive's size.
@@ -33,10 +37,16 @@ Positions model_positions(const Primitive& primitive) {
     return {primitive.positions.begin(), primitive.positions.end()};
 }
 
+using Triangles = std::vector<glm::uvec3>;
+
+glm::uvec3 corners_of(const Primitive& primitive, size_t triangle) {
+    const uint32_t* index = &primitive.indices[3 * triangle];
+    return {index[0], index[1], index[2]};
+}
+
 // Twice the area as a vector along the normal.
-glm::dvec3 area_vector(const Primitive& primitive, const Positions& p, uint32_t triangle) {
-    const uint32_t* index = &primitive.indices[3 * static_cast<size_t>(triangle)];
-    return glm::cross(p[index[1]] - p[index[0]], p[index[2]] - p[index[0]]);
+glm::dvec3 area_vector(const Positions& p, const glm::uvec3& t) {
+    return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
 }
 
 // Interleaves the lowest ten bits of three numbers.
@@ -51,7 +61,7 @@ uint32_t morton(const glm::uvec3& v) {
 }
 
 // Triangles that lie near each other stand near each other, so that points even in area are even in space.
-void sort_along_curve(const Primitive& primitive, const Positions& p, std::vector<uint32_t>& triangles) {
+void sort_along_curve(const Positions& p, Triangles& triangles) {
     glm::dvec3 low(1e300);
     glm::dvec3 high(-1e300);
     for (const glm::dvec3& position : p) {
@@ -61,22 +71,26 @@ void sort_along_curve(const Primitive& primitive, const Positions& p, std::vecto
     const glm::dvec3 cells = 1023.0 / glm::max(high - low, glm::dvec3(1e-300));
     std::vector<std::pair<uint32_t, uint32_t>> keyed;
     keyed.reserve(triangles.size());
-    for (const uint32_t triangle : triangles) {
-        const uint32_t* index = &primitive.indices[3 * static_cast<size_t>(triangle)];
-        const glm::dvec3 center = (p[index[0]] + p[index[1]] + p[index[2]]) / 3.0;
-        keyed.emplace_back(morton(glm::uvec3((center - low) * cells)), triangle);
+    for (const glm::uvec3& t : triangles) {
+        const glm::dvec3 center = (p[t.x] + p[t.y] + p[t.z]) / 3.0;
+        keyed.emplace_back(morton(glm::uvec3((center - low) * cells)), static_cast<uint32_t>(keyed.size()));
     }
     std::sort(keyed.begin(), keyed.end());
-    std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
+    Triangles sorted;
+    sorted.reserve(triangles.size());
+    for (const auto& [code, triangle] : keyed) {
+        sorted.push_back(triangles[triangle]);
+    }
+    triangles = std::move(sorted);
 }
 
-AreaTable make_table(const Primitive& primitive, const Positions& p, std::vector<uint32_t> triangles) {
+AreaTable make_table(const Positions& p, Triangles triangles) {
     AreaTable table;
-    sort_along_curve(primitive, p, triangles);
+    sort_along_curve(p, triangles);
     table.triangles = std::move(triangles);
     double sum = 0.0;
-    for (const uint32_t triangle : table.triangles) {
-        const double area = 0.5 * glm::length(area_vector(primitive, p, triangle));
+    for (const glm::uvec3& triangle : table.triangles) {
+        const double area = 0.5 * glm::length(area_vector(p, triangle));
         sum += std::isfinite(area) ? area : 0.0;
         table.cumulative.push_back(sum);
     }
@@ -93,13 +107,14 @@ std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive
     std::map<std::array<int64_t, 4>, std::vector<uint32_t>> planes;
     const auto count = static_cast<uint32_t>(primitive.indices.size() / 3);
     for (uint32_t triangle = 0; triangle < count; ++triangle) {
-        const glm::dvec3 area = area_vector(primitive, p, triangle);
+        const glm::uvec3 corners = corners_of(primitive, triangle);
+        const glm::dvec3 area = area_vector(p, corners);
         const double length = glm::length(area);
         if (!(length > 0.0) || !std::isfinite(length)) {
             continue;  // a triangle without area is drawn nowhere and hides nothing
         }
         const glm::dvec3 normal = area / length;
-        const double offset = glm::dot(normal, p[primitive.indices[3 * static_cast<size_t>(triangle)]]);
+        const double offset = glm::dot(normal, p[corners.x]);
         planes[{std::llround(normal.x * k_normal_steps), std::llround(normal.y * k_normal_steps),
                 std::llround(normal.z * k_normal_steps), std::llround(offset / offset_step)}]
             .push_back(triangle);
@@ -111,10 +126,19 @@ std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive
     return out;
 }
 
+Triangles corners_of(const Primitive& primitive, const std::vector<uint32_t>& triangles) {
+    Triangles out;
+    out.reserve(triangles.size());
+    for (const uint32_t triangle : triangles) {
+        out.push_back(corners_of(primitive, triangle));
+    }
+    return out;
+}
+
 double sum_of_areas(const Primitive& primitive, const Positions& p, const std::vector<uint32_t>& triangles) {
     double sum = 0.0;
     for (const uint32_t triangle : triangles) {
-        sum += 0.5 * glm::length(area_vector(primitive, p, triangle));
+        sum += 0.5 * glm::length(area_vector(p, corners_of(primitive, triangle)));
     }
     return sum;
 }
@@ -176,10 +200,12 @@ class Cutter {
     }
 
   private:
-    // A primitive's triangles cut once, in model space: one table for each large plane and one for the rest.
-    struct Cut {
-        std::vector<std::shared_ptr<const AreaTable>> tables;
+    struct Piece {
+        std::shared_ptr<const AreaTable> table;
+        std::shared_ptr<const AreaTable> cover;
     };
+    // A primitive's triangles cut once, in model space: one piece for each large plane and one for the rest.
+    using Cut = std::vector<Piece>;
 
     void list_surfaces() {
         for (const int index : scene_.topological_order) {
@@ -263,36 +289,83 @@ class Cutter {
                                     bool may_be_flat) const {
         Cut cut;
         std::vector<uint32_t> rest;
+        std::vector<uint32_t> uncovered;  // of the rest
+        Triangles covers;                 // in place of the others
         for (std::vector<uint32_t>& triangles : triangles_by_plane(primitive, positions)) {
-            const bool large = may_be_flat && sum_of_areas(primitive, positions, triangles) * scale >=
-                                                  k_least_flat_share * total_;
-            if (!large) {
-                rest.insert(rest.end(), triangles.begin(), triangles.end());
+            const double share =
+                may_be_flat ? sum_of_areas(primitive, positions, triangles) * scale / total_ : 0.0;
+            if (share >= k_least_flat_share) {
+                cut.push_back(flat_piece(primitive, positions, corners_of(primitive, triangles)));
                 continue;
             }
-            AreaTable table = make_table(primitive, positions, std::move(triangles));
-            const uint32_t first = table.triangles.front();
-            table.flat = true;
-            table.point = glm::dvec3(primitive.positions[primitive.indices[3 * static_cast<size_t>(first)]]);
-            table.normal = glm::normalize(area_vector(primitive, model_positions(primitive), first));
-            cut.tables.push_back(std::make_shared<const AreaTable>(std::move(table)));
+            rest.insert(rest.end(), triangles.begin(), triangles.end());
+            const Triangles cover = share >= k_least_cover_share
+                                        ? find_cover(primitive, positions, corners_of(primitive, triangles))
+                                        : Triangles{};
+            covers.insert(covers.end(), cover.begin(), cover.end());
+            if (cover.empty()) {
+                uncovered.insert(uncovered.end(), triangles.begin(), triangles.end());
+            }
         }
         if (!rest.empty()) {
-            std::sort(rest.begin(), rest.end());
-            cut.tables.push_back(
-                std::make_shared<const AreaTable>(make_table(primitive, positions, std::move(rest))));
+            cut.push_back(rest_piece(primitive, positions, std::move(rest), std::move(uncovered), covers));
         }
         return cut;
     }
 
+    [[nodiscard]] static Piece rest_piece(const Primitive& primitive, const Positions& positions,
+                                          std::vector<uint32_t> rest, std::vector<uint32_t> uncovered,
+                                          const Triangles& covers) {
+        const auto table_of = [&](std::vector<uint32_t> triangles, const Triangles& more) {
+            std::sort(triangles.begin(), triangles.end());
+            Triangles all = corners_of(primitive, triangles);
+            all.insert(all.end(), more.begin(), more.end());
+            return std::make_shared<const AreaTable>(make_table(positions, std::move(all)));
+        };
+        Piece piece{table_of(std::move(rest), {}), nullptr};
+        piece.cover = covers.empty() ? piece.table : table_of(std::move(uncovered), covers);
+        return piece;
+    }
+
+    // Where parts of triangles are not there, points tell which, by the coordinates of the triangle's own
+    // corners: those have no cover.
+    [[nodiscard]] Triangles find_cover(const Primitive& primitive, const Positions& positions,
+                                       const Triangles& triangles) const {
+        return cut_out(primitive) ? Triangles{} : flat_cover(positions, triangles);
+    }
+
+    [[nodiscard]] Piece flat_piece(const Primitive& primitive, const Positions& positions,
+                                   Triangles triangles) const {
+        Triangles cover = find_cover(primitive, positions, triangles);
+        AreaTable table = make_table(positions, std::move(triangles));
+        const auto model = [&](uint32_t vertex) { return glm::dvec3(primitive.positions[vertex]); };
+        const glm::uvec3 first = table.triangles.front();
+        table.flat = true;
+        table.point = model(first.x);
+        table.normal = glm::normalize(glm::cross(model(first.y) - table.point, model(first.z) - table.point));
+        Piece piece{std::make_shared<const AreaTable>(std::move(table)), nullptr};
+        piece.cover = piece.table;
+        if (!cover.empty()) {
+            AreaTable few = make_table(positions, std::move(cover));
+            few.flat = true;
+            few.point = piece.table->point;
+            few.normal = piece.table->normal;
+            piece.cover = std::make_shared<const AreaTable>(std::move(few));
+        }
+        return piece;
+    }
+
+    [[nodiscard]] bool cut_out(const Primitive& primitive) const {
+        return primitive.material != k_none &&
+               scene_.materials[at(primitive.material)].alpha_mode != AlphaMode::opaque;
+    }
+
     void add_tables(uint32_t surface, const Cut& cut, double scale) {
-        const int material = primitive_of(out_.surfaces[surface]).material;
-        const bool cut_out =
-            material != k_none && scene_.materials[at(material)].alpha_mode != AlphaMode::opaque;
-        for (const std::shared_ptr<const AreaTable>& table : cut.tables) {
-            const double area = table->cumulative.back() * scale;
+        const bool holes = cut_out(primitive_of(out_.surfaces[surface]));
+        for (const Piece& piece : cut) {
+            const double area = piece.table->cumulative.back() * scale;
             if (area > 0.0 && std::isfinite(area)) {
-                out_.parts.push_back({surface, table, area, cut_out});
+                out_.parts.push_back({surface, piece.table, piece.cover, area, holes});
             }
         }
     }

@@ -27,16 +27,20 @@ struct PointSurface {
 
 // Triangles with their areas summed up, for drawing one in proportion to its area.
 struct AreaTable {
-    std::vector<uint32_t> triangles;  // of a primitive, along a space-filling curve
-    std::vector<double> cumulative;   // parallel to triangles; any unit
-    bool flat = false;                // all in one plane
-    glm::dvec3 point{0.0};            // on that plane, model space; flat only
+    std::vector<glm::uvec3> triangles;  // corners: vertices of a primitive; along a space-filling curve
+    std::vector<double> cumulative;     // parallel to triangles; any unit
+    bool flat = false;                  // all in one plane
+    glm::dvec3 point{0.0};              // on that plane, model space; flat only
     glm::dvec3 normal{0.0};
 };
 
 struct SurfacePart {
     uint32_t surface = 0;
     std::shared_ptr<const AreaTable> table;  // shared by the places where a mesh is drawn
+    // What hides: the same surface in the fewest triangles (flat_cover.h). They are not all of the
+    // primitive's own, so only places mean something on them, not coordinates of textures. Often the table
+    // itself, and always where the material has holes.
+    std::shared_ptr<const AreaTable> cover;
     double area_m2 = 0.0;
     bool cut_out = false;  // its material has holes: parts of its triangles are not there
 };

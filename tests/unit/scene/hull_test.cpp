@@ -217,10 +217,9 @@ TEST(Hull, NoSegmentOfTheSceneCrossesIt) {
             }
             const Primitive& p = scene.meshes[static_cast<size_t>(surface.mesh)].primitives[0];
             std::array<glm::dvec3, 3> c;
-            for (size_t k = 0; k < 3; ++k) {
-                c[k] = glm::dvec3(
-                    m *
-                    glm::dvec4(glm::dvec3(p.positions[p.indices[3 * part.table->triangles[0] + k]]), 1.0));
+            for (int k = 0; k < 3; ++k) {
+                c[static_cast<size_t>(k)] =
+                    glm::dvec3(m * glm::dvec4(glm::dvec3(p.positions[part.table->triangles[0][k]]), 1.0));
             }
             const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
             double low = 0.0;

@@ -48,7 +48,7 @@ struct Textured {
 PointSample at_uv(float u, float v, float share) {
     PointSample point;
     // Triangle 0: corners (0,0), (1,0), (1,1); triangle 1: (0,0), (1,1), (0,1).
-    point.triangle = v <= u ? 0 : 1;
+    point.triangle = v <= u ? glm::uvec3(0, 1, 2) : glm::uvec3(0, 2, 3);
     point.second = v <= u ? u - v : u;
     point.third = v <= u ? v : v - u;
     point.share = share;
@@ -180,6 +180,7 @@ TEST(PointMaterials, VertexColoursAreInterpolatedAndMultiplied) {
     t.material().base_color_texture.texture = 0;
     t.primitive().colors = {{1, 0, 0.5F, 1}, {0, 1, 0.5F, 1}, {0, 0, 0.5F, 1}, {0, 0, 0, 1}};
     PointSample point;
+    point.triangle = {0, 1, 2};
     point.second = 0.25F;
     point.third = 0.5F;
     point.share = 1.0F;

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "made_scenes.h"
+#include "scene/refine.h"
 
 namespace bounce::scene::test {
 namespace {
@@ -19,7 +21,7 @@ const Primitive& primitive_of(const Scene& scene, const SurfaceParts& parts, uin
 }
 
 std::array<glm::dvec3, 3> corners(const Scene& scene, const SurfaceParts& parts, uint32_t surface,
-                                  uint32_t triangle) {
+                                  const glm::uvec3& triangle) {
     const Primitive& p = primitive_of(scene, parts, surface);
     const Pose pose = evaluate_pose(scene, 0.0);
     const PointSurface& s = parts.surfaces[surface];
@@ -27,11 +29,23 @@ std::array<glm::dvec3, 3> corners(const Scene& scene, const SurfaceParts& parts,
     glm::dmat4 m = pose.world_from_node[static_cast<size_t>(s.node)];
     m = node.instances.empty() ? m : m * node.instances[static_cast<size_t>(s.instance)];
     std::array<glm::dvec3, 3> out;
-    for (size_t k = 0; k < 3; ++k) {
-        out[k] =
-            glm::dvec3(m * glm::dvec4(glm::dvec3(p.positions[p.indices[3 * size_t{triangle} + k]]), 1.0));
+    for (int k = 0; k < 3; ++k) {
+        out[static_cast<size_t>(k)] = glm::dvec3(m * glm::dvec4(glm::dvec3(p.positions[triangle[k]]), 1.0));
     }
     return out;
+}
+
+std::vector<glm::uvec3> triangles_of(const Primitive& p) {
+    std::vector<glm::uvec3> out;
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+        out.emplace_back(p.indices[i], p.indices[i + 1], p.indices[i + 2]);
+    }
+    return out;
+}
+
+// For maps.
+std::array<uint32_t, 4> key(uint32_t surface, const glm::uvec3& triangle) {
+    return {surface, triangle.x, triangle.y, triangle.z};
 }
 
 double area_of(const std::array<glm::dvec3, 3>& c) {
@@ -70,24 +84,22 @@ TEST(PointSet, AsManyAsAreaSays) {
     ASSERT_EQ(set.occluders.size(), count);
     EXPECT_TRUE(set.large.empty());
     EXPECT_TRUE(set.reflectors.empty());
-    std::map<std::pair<uint32_t, uint32_t>, size_t> found;
+    std::map<std::array<uint32_t, 4>, size_t> found;
     for (const PointSample& point : set.occluders) {
-        ++found[{point.surface, point.triangle}];
+        ++found[key(point.surface, point.triangle)];
     }
     double total = 0.0;
     for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
-        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
-        for (uint32_t t = 0; t < triangles; ++t) {
+        for (const glm::uvec3& t : triangles_of(primitive_of(scene, parts, s))) {
             total += area_of(corners(scene, parts, s, t));
         }
     }
     EXPECT_NEAR(set.occluder_area_m2 / total, 1.0, 1e-6);
     for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
-        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
-        for (uint32_t t = 0; t < triangles; ++t) {
+        for (const glm::uvec3& t : triangles_of(primitive_of(scene, parts, s))) {
             const double expected = static_cast<double>(count) * area_of(corners(scene, parts, s, t)) / total;
             // A run of strata of one point each: off by one at both of its ends.
-            EXPECT_NEAR(static_cast<double>(found[{s, t}]), expected, 2.0) << s << ' ' << t;
+            EXPECT_NEAR(static_cast<double>(found[key(s, t)]), expected, 2.0) << s << ' ' << t.x;
         }
     }
 }
@@ -298,8 +310,7 @@ TEST(PointSet, PointsOnTheHullAreLeftOut) {
 size_t expected_large(const Scene& scene, const SurfaceParts& parts, double points) {
     std::vector<double> areas;
     for (uint32_t s = 0; s < parts.surfaces.size(); ++s) {
-        const auto triangles = static_cast<uint32_t>(primitive_of(scene, parts, s).indices.size() / 3);
-        for (uint32_t t = 0; t < triangles; ++t) {
+        for (const glm::uvec3& t : triangles_of(primitive_of(scene, parts, s))) {
             areas.push_back(area_of(corners(scene, parts, s, t)));
         }
     }
@@ -330,14 +341,14 @@ TEST(PointSet, LargeTrianglesAreTheLargest) {
             const PointSet set = sample_points(parts, none_on_hull(parts), occluders(4096, a_map, true));
             EXPECT_EQ(set.large.size(), expected_large(scene, parts, static_cast<double>(a_map))) << a_map;
             double least = 1e300;
-            std::map<std::pair<uint32_t, uint32_t>, int> taken;
+            std::map<std::array<uint32_t, 4>, int> taken;
             for (const SurfaceTriangle& triangle : set.large) {
                 least = std::min(least, area_of(corners(scene, parts, triangle.surface, triangle.triangle)));
-                ++taken[{triangle.surface, triangle.triangle}];
+                ++taken[key(triangle.surface, triangle.triangle)];
             }
             EXPECT_EQ(taken.size(), set.large.size()) << "none twice";
             for (const PointSample& point : set.occluders) {
-                ASSERT_EQ(taken.count({point.surface, point.triangle}), 0U)
+                ASSERT_EQ(taken.count(key(point.surface, point.triangle)), 0U)
                     << "no points on what is drawn whole";
                 ASSERT_LE(area_of(corners(scene, parts, point.surface, point.triangle)),
                           least * (1.0 + 1e-6));
@@ -356,6 +367,65 @@ TEST(PointSet, LargeTrianglesMayBeAllThereIs) {
     EXPECT_EQ(set.occluder_area_m2, 0.0);
 }
 
+// Corners of a set's large triangles, in any order.
+std::multiset<std::array<float, 3>> large_corners(const Scene& scene, const SurfaceParts& parts,
+                                                  const PointSet& set) {
+    std::multiset<std::array<float, 3>> out;
+    for (const SurfaceTriangle& triangle : set.large) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3& p = primitive_of(scene, parts, triangle.surface).positions[triangle.triangle[k]];
+            out.insert({p.x, p.y, p.z});
+        }
+    }
+    return out;
+}
+
+TEST(PointSet, FinelyCutWallsAreDrawnWholeAllTheSame) {
+    Scene scene;
+    const Primitive crate = box({0.5F, 0.3F, 0.2F});
+    place_mesh(scene, add_mesh(scene, crate), turned(0.5));
+    place_mesh(scene, add_mesh(scene, triangle_soup(4000, 3)), scaled(glm::dvec3(0.2)));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    const PointSet set = sample_points(parts, none_on_hull(parts), occluders(4096, 512, true));
+    ASSERT_EQ(set.large.size(), 12U);
+    const std::multiset<std::array<float, 3>> expected = large_corners(scene, parts, set);
+    const std::set<std::array<float, 3>> expected_places(expected.begin(), expected.end());
+    for (const double factor : {4.0, 10.0, 100.0}) {
+        scene.meshes[0].primitives[0] = refine(crate, refinement_by(factor));
+        const SurfaceParts fine_parts = surface_parts(scene, k_all_animations);
+        const PointSet fine = sample_points(fine_parts, none_on_hull(fine_parts), occluders(4096, 512, true));
+        EXPECT_EQ(fine.large.size(), 12U) << factor;
+        const std::multiset<std::array<float, 3>> found = large_corners(scene, fine_parts, fine);
+        EXPECT_EQ(std::set(found.begin(), found.end()), expected_places);
+        EXPECT_NEAR(fine.occluder_area_m2 / set.occluder_area_m2, 1.0, 1e-6);
+        for (const PointSample& point : fine.occluders) {
+            ASSERT_NE(fine_parts.surfaces[point.surface].node, 0) << "no points on what is drawn whole";
+        }
+    }
+}
+
+TEST(PointSet, ReflectorsStayOnThePrimitivesOwnTriangles) {
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, refine(square(2.0F), refinement_by(25.0))));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    PointCounts counts = occluders(256, 64, false);
+    counts.reflectors_a_map = 64;
+    counts.reflectors = 256;
+    const PointSet set = sample_points(parts, none_on_hull(parts), counts);
+    std::set<std::array<uint32_t, 4>> own;
+    for (const glm::uvec3& t : triangles_of(scene.meshes[0].primitives[0])) {
+        own.insert(key(0, t));
+    }
+    std::set<std::array<uint32_t, 4>> occluding;
+    for (const PointSample& point : set.reflectors) {
+        ASSERT_TRUE(own.contains(key(0, point.triangle)));
+    }
+    for (const PointSample& point : set.occluders) {
+        occluding.insert(key(0, point.triangle));
+    }
+    EXPECT_EQ(occluding.size(), 2U);
+}
+
 TEST(PointSet, CutOutsAreNeverDrawnWhole) {
     Scene scene;
     Primitive p = square(4.0F);
@@ -367,6 +437,10 @@ TEST(PointSet, CutOutsAreNeverDrawnWhole) {
     const PointSet set = sample_points(parts, none_on_hull(parts), occluders(256, 256, true));
     EXPECT_TRUE(set.large.empty());
     EXPECT_EQ(set.occluders.size(), 256U);
+    scene.meshes[0].primitives[0] = refine(p, refinement_by(16.0));
+    const SurfaceParts fine = surface_parts(scene, k_all_animations);
+    EXPECT_EQ(fine.parts[0].cover, fine.parts[0].table) << "its points ask textures of their own triangles";
+    EXPECT_TRUE(sample_points(fine, none_on_hull(fine), occluders(256, 256, true)).large.empty());
 }
 
 TEST(PointSet, SameInputSamePoints) {

@@ -9,6 +9,7 @@
 
 #include "made_scenes.h"
 #include "scene/points/deformed_positions.h"
+#include "scene/refine.h"
 
 namespace bounce::scene::test {
 namespace {
@@ -129,12 +130,46 @@ TEST(SurfaceParts, TrianglesWithoutAreaAreLeftOut) {
     EXPECT_NEAR(parts.area_m2() / area, 1.0, 1e-6);
     size_t triangles = 0;
     for (const SurfacePart& part : parts.parts) {
-        for (const uint32_t triangle : part.table->triangles) {
-            EXPECT_LT(triangle, 40U);
+        for (const glm::uvec3& triangle : part.table->triangles) {
+            EXPECT_LT(triangle.x, 120U);
+            EXPECT_EQ(triangle, triangle.x + glm::uvec3(0, 1, 2)) << "not one of those added";
         }
         triangles += part.table->triangles.size();
     }
     EXPECT_EQ(triangles, 40U);
+}
+
+TEST(SurfaceParts, FinelyCutPlanesHaveACover) {
+    Scene scene;
+    const int mesh = add_mesh(scene, refine(square(2.0F), refinement_by(49.0)));
+    place_mesh(scene, mesh, turned(0.3));
+    place_mesh(scene, mesh, scaled({3.0, 1.0, 2.0}) * turned(0.8));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    ASSERT_EQ(parts.parts.size(), 2U);
+    for (const SurfacePart& part : parts.parts) {
+        EXPECT_EQ(part.table->triangles.size(), 98U);
+        ASSERT_EQ(part.cover->triangles.size(), 2U);
+        EXPECT_NEAR(part.cover->cumulative.back() / part.table->cumulative.back(), 1.0, 1e-6);
+        EXPECT_TRUE(part.cover->flat);
+        EXPECT_EQ(part.cover->normal, part.table->normal);
+    }
+    scene.meshes[0].primitives[0] = square(2.0F);
+    const SurfaceParts plain = surface_parts(scene, k_all_animations);
+    EXPECT_EQ(plain.parts[0].cover, plain.parts[0].table) << "nothing to take together";
+}
+
+TEST(SurfaceParts, SmallPlanesAreCoveredWithinTheRest) {
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, square(30.0F)));
+    // Of its faces one pair is a hundredth of the square, the others a thousandth.
+    place_mesh(scene, add_mesh(scene, refine(box({0.15F, 1.5F, 1.5F}), refinement_by(100.0))));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    ASSERT_EQ(parts.parts.size(), 4U) << "the square, two faces, the rest";
+    const SurfacePart& rest = parts.parts[3];
+    EXPECT_FALSE(rest.table->flat);
+    EXPECT_EQ(rest.table->triangles.size(), 800U);
+    EXPECT_EQ(rest.cover->triangles.size(), 8U);
+    EXPECT_NEAR(rest.cover->cumulative.back() / rest.table->cumulative.back(), 1.0, 1e-6);
 }
 
 TEST(SurfaceParts, ScenesWithoutAreaHaveNoParts) {
