@@ -156,7 +156,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     if (settings.show == Show::motion) {
         plan.motion = true;
         plan.direct = plan.indirect = false;
-        plan.left_out = {{"light", "the layer shows motion alone"}};
+        plan.left_out.push_back({"light", "the layer shows motion alone"});
         return plan;
     }
     plan_lights(pose, plan);

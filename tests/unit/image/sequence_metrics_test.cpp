@@ -63,6 +63,29 @@ TEST(SequenceMetrics, FlickerByHand) {
     EXPECT_NEAR(mean_over_frames(metrics, *find_metric("bias")), 0.0, 1e-6);
 }
 
+// Light that rises by 0.1 a frame and light that jumps by 0.1 to and fro have the same TID: only the spectrum
+// tells them apart. Both are measured without a reference on pixels that stand still.
+TEST(SequenceMetrics, TheSpectrumTellsFlickerFromChange) {
+    const auto measure = [](float (*value)(int)) {
+        SequenceMeter meter;
+        const Image motion = still();
+        for (int frame = 1; frame <= 16; ++frame) {
+            meter.add(frame, constant(value(frame)), nullptr, frame == 1 ? nullptr : &motion);
+        }
+        return meter.finish();
+    };
+    const SequenceMetrics rising = measure([](int frame) { return 0.1F * static_cast<float>(frame); });
+    const SequenceMetrics flicker = measure([](int frame) { return frame % 2 == 0 ? 0.9F : 0.8F; });
+    EXPECT_NEAR(rising.mean_luminance, flicker.mean_luminance, 1e-6);  // 0.85
+    EXPECT_NEAR(rising.tid, 0.1, 1e-6);
+    EXPECT_NEAR(flicker.tid, 0.1, 1e-6);
+    EXPECT_NEAR(flicker.flicker_power, 0.0025 / (0.85 * 0.85), 1e-6);
+    EXPECT_NEAR(flicker.flicker_share, 1.0, 1e-6);
+    // 0.023 % of the ramp's energy is fast (tests/unit/image/temporal_spectrum_test.cpp).
+    EXPECT_LT(rising.flicker_share, 5e-4);
+    EXPECT_LT(rising.flicker_power, 0.05 * flicker.flicker_power);
+}
+
 TEST(SequenceMetrics, ASteadySequenceHasNothing) {
     SequenceMeter meter;
     const Image motion = still();
