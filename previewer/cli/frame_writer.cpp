@@ -14,7 +14,8 @@ void FrameWriter::write(const std::filesystem::path& path, const Image& image,
         {"Software", "bounce"}, {"bounce:scene", scene_.name}, {"bounce:frame", std::to_string(frame)}};
     // Debug layers are data to look at, not light: they go out without the scene's look.
     if (is_scene_linear(path)) {
-        write_image(path, image, attributes);
+        write_image(path, image, attributes,
+                    settings_.show == Show::motion ? ExrValues::full : ExrValues::half);
     } else if (shows_light(settings_.show)) {
         write_image(path,
                     to_display(image, {view.display_device, view.view_transform, view.look, view.exposure,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -52,14 +53,15 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
 }
 
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
-FrameStats measure_frame(Renderer& renderer, const scene::Pose& pose, const CameraView& camera,
+// before: the frame before, where the layer needs it.
+FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* before,
                          const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device,
                          bool first) {
     FrameStats stats;
     const auto once = [&](gl::TimingMode mode, const Settings& with) {
         glFinish();
         const auto start = std::chrono::steady_clock::now();
-        FrameReport report = renderer.render(pose, camera, with, mode);
+        FrameReport report = renderer.render(now.pose, now.camera, with, mode, before);
         glFinish();
         const double ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -135,8 +137,16 @@ ExitCode render(const Arguments& arguments) {
         const scene::Pose pose = scene::evaluate_pose(scene, time_s, animation);
         const CameraView camera =
             scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
-        FrameStats measured =
-            measure_frame(renderer, pose, camera, settings, arguments, device, frame == frames.front());
+        std::optional<scene::Pose> pose_before;
+        std::optional<Moment> before;
+        if (settings.show == Show::motion) {
+            pose_before =
+                scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frame - 1), animation);
+            before.emplace(Moment{*pose_before, scene_camera(scene, *pose_before, arguments.render.camera,
+                                                             settings.width, settings.height)});
+        }
+        FrameStats measured = measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings,
+                                            arguments, device, frame == frames.front());
         measured.frame = frame;
         measured.time_s = time_s;
         const Image image = renderer.read_color();

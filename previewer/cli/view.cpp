@@ -28,6 +28,9 @@ scene::LoadResult load(const Arguments& arguments) {
 
 ExitCode view(const Arguments& arguments) {
     arguments.render.check();
+    if (arguments.render.show == "motion") {
+        throw usage_error("--show motion is of a frame and the one before; bounce render writes it");
+    }
     viewer::run_viewer({
         .scene = arguments.scene,
         .load = [&] { return load(arguments); },

@@ -116,19 +116,26 @@ void GpuScene::set_pose(const scene::Pose& pose) {
     build_batches(pose);
 }
 
+glm::dmat4 GpuScene::render_from_vertices(const scene::DrawInstance& instance, int primitive) const {
+    const bool joints = !scene_.meshes[at(instance.mesh)].primitives[at(primitive)].joints.empty();
+    const bool skinned = joints && instance.skin != scene::k_none && vertices_.node_deforms(instance.node);
+    return skinned ? glm::dmat4(1.0) : space_.render_from_world() * instance.world_from_model;
+}
+
 void GpuScene::build_batches(const scene::Pose& pose) {
-    const glm::dmat4 render_from_world = space_.render_from_world();
     static const scene::Material default_material;
     // Draws that share every state stand together, so that they become one instanced call.
     struct Item {
         DrawBatch batch;
         GpuDraw draw;
         DrawBox box;
+        DrawSource source;
     };
     std::vector<Item> items;
     has_emission_ = has_disney_ = has_specular_ = false;
     triangles_ = 0;
-    for (const scene::DrawInstance& instance : pose.draws) {
+    for (size_t i = 0; i < pose.draws.size(); ++i) {
+        const scene::DrawInstance& instance = pose.draws[i];
         const scene::Mesh& mesh = scene_.meshes[at(instance.mesh)];
         const bool deformed = vertices_.node_deforms(instance.node);
         for (size_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -141,9 +148,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                 has_material ? pose.materials[at(primitive.material)] : default_material;
             const int material_index =
                 has_material ? primitive.material : static_cast<int>(pose.materials.size());
-            const bool skinned = deformed && instance.skin != scene::k_none && !primitive.joints.empty();
-            const glm::dmat4 transform =
-                skinned ? glm::dmat4(1.0) : render_from_world * instance.world_from_model;
+            const glm::dmat4 transform = render_from_vertices(instance, static_cast<int>(p));
             const PrimitiveRange range = deformed
                                              ? vertices_.deformed_range(instance.node, static_cast<int>(p))
                                              : vertices_.range(instance.mesh, static_cast<int>(p));
@@ -159,6 +164,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             scene::Bounds world;
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
             item.box = gpu::draw_box(world, space_);
+            item.source = {static_cast<int>(i), static_cast<int>(p)};
             items.push_back(item);
             has_emission_ |= item.batch.features.emission;
             has_disney_ |= material.diffuse == scene::DiffuseModel::disney;
@@ -176,6 +182,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
 
     batches_.clear();
     draw_boxes_.clear();
+    draw_sources_.clear();
     std::vector<GpuDraw> draws;
     for (size_t i = 0; i < items.size(); ++i) {
         if (i == 0 || key(items[i]) != key(items[i - 1])) {
@@ -185,6 +192,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         ++batches_.back().draw_count;
         draws.push_back(items[i].draw);
         draw_boxes_.push_back(items[i].box);
+        draw_sources_.push_back(items[i].source);
     }
     if (draws.size() > draw_capacity_ || !draws_) {
         draw_capacity_ = std::max<size_t>(draws.size(), 1);

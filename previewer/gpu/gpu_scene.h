@@ -43,6 +43,12 @@ struct DrawBatch {
     UniformArena::Slot single;  // GpuDraw, where draw_count is 1
 };
 
+// Which of the pose's draws an entry of the draw buffer is, and which of its mesh's primitives.
+struct DrawSource {
+    int instance = 0;
+    int primitive = 0;
+};
+
 // The scene on the GPU: geometry, images and materials are uploaded once; set_pose uploads what a moment
 // changes (transforms, materials that are animated, joints, weights).
 class GpuScene {
@@ -58,6 +64,10 @@ class GpuScene {
     [[nodiscard]] const std::vector<DrawBatch>& batches() const { return batches_; }
     // Of a draw, numbered as in DrawBatch::first_draw.
     [[nodiscard]] const DrawBox& draw_box(uint32_t draw) const { return draw_boxes_[draw]; }
+    // In the order of the draw buffer: batches' first_draw counts in it.
+    [[nodiscard]] const std::vector<DrawSource>& draw_sources() const { return draw_sources_; }
+    // Places a primitive's vertices, which of skinned ones are in render space already.
+    [[nodiscard]] glm::dmat4 render_from_vertices(const scene::DrawInstance& instance, int primitive) const;
     [[nodiscard]] bool deforms() const { return !vertices_.jobs().empty(); }
     [[nodiscard]] bool has_emission() const { return has_emission_; }
     [[nodiscard]] bool has_disney_diffuse() const { return has_disney_; }
@@ -85,6 +95,7 @@ class GpuScene {
     MaterialTextures textures_;
     std::vector<DrawBatch> batches_;
     std::vector<DrawBox> draw_boxes_;
+    std::vector<DrawSource> draw_sources_;
     gl::Buffer draws_;
     UniformArena single_draws_;
     gl::Buffer draw_ids_;

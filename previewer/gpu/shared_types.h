@@ -19,6 +19,8 @@ static_assert(sizeof(ViewUniforms) == (4 + 1) * k_row);
 static_assert(sizeof(GpuLight) == 8 * k_row);
 static_assert(sizeof(GpuMaterial) == 12 * k_row);
 static_assert(sizeof(GpuDraw) == 7 * k_row);
+static_assert(sizeof(MotionUniforms) == (2 * 4 + 3) * k_row);
+static_assert(sizeof(GpuPreviousDraw) == 4 * k_row);
 static_assert(sizeof(GpuVpl) == 8 * k_row);
 static_assert(sizeof(IsmUniforms) == 4 * k_row);
 static_assert(sizeof(GpuPointSource) == 2 * k_row);

@@ -123,17 +123,19 @@ bool is_scene_linear(const fs::path& path) {
     return std::find(linear.begin(), linear.end(), extension) != linear.end();
 }
 
-void write_image(const fs::path& path, const Image& image, const ImageAttributes& attributes) {
+void write_image(const fs::path& path, const Image& image, const ImageAttributes& attributes,
+                 ExrValues values) {
     assert(image.width > 0 && image.height > 0);
     assert(image.rgb.size() == static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 3U);
     const bool linear = is_scene_linear(path);
-    const bool half = extension_of(path) == ".exr";
+    const bool exr = extension_of(path) == ".exr";
+    const bool half = exr && values == ExrValues::half;
     const auto stored =
         linear ? (half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT) : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(image.width, image.height, 3, stored);
     // The curve is in the values already; without this a writer may guess another and record a gamma.
     spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
-    if (half) {
+    if (exr) {
         spec.attribute("compression", "zip");
     } else if (extension_of(path) == ".jpg" || extension_of(path) == ".jpeg") {
         spec.attribute("Compression", "jpeg:95");

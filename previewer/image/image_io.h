@@ -12,11 +12,15 @@ namespace bounce {
 // Metadata written into the file's header (scene, frame, settings).
 using ImageAttributes = std::map<std::string, std::string>;
 
-// Writes atomically, format by extension: .exr (half, scene-linear as it is), .png (8 bit, the values
-// are taken as display-referred already: apply a view transform first) and what else OpenImageIO
-// writes by the same two rules (.hdr, .tif float: linear; .jpg, .tga: display). Throws output_error.
+// How an .exr stores values: half floats hold light, but of data (places, distances) only the first 3 digits.
+enum class ExrValues { half, full };
+
+// Writes atomically, format by extension: .exr (half unless asked otherwise, scene-linear as it is), .png (8
+// bit, the values are taken as display-referred already: apply a view transform first) and what else
+// OpenImageIO writes by the same two rules (.hdr, .tif float: linear; .jpg, .tga: display). Throws
+// output_error.
 void write_image(const std::filesystem::path& path, const Image& image,
-                 const ImageAttributes& attributes = {});
+                 const ImageAttributes& attributes = {}, ExrValues values = ExrValues::half);
 
 // True where the extension names a scene-linear format (exr, hdr, pfm, tif).
 [[nodiscard]] bool is_scene_linear(const std::filesystem::path& path);

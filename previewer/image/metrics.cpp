@@ -107,10 +107,10 @@ double relmse(const Image& test, const Image& reference, double scale) {
     return std::isfinite(result) ? result : std::numeric_limits<double>::quiet_NaN();
 }
 
-Plane luma(const Image& display) {
-    Plane plane(display.width, display.height);
+Plane luma(const Image& image) {
+    Plane plane(image.width, image.height);
     for (size_t i = 0; i < plane.values.size(); ++i) {
-        const float* rgb = &display.rgb[3 * i];
+        const float* rgb = &image.rgb[3 * i];
         plane.values[i] = 0.2126F * rgb[0] + 0.7152F * rgb[1] + 0.0722F * rgb[2];
     }
     return plane;

@@ -57,8 +57,8 @@ enum class HdrFlip { compute, leave_out };
 // structural similarity".
 [[nodiscard]] double ssim(const Plane& test, const Plane& reference);
 
-// Rec. 709 luma of a display-referred image.
-[[nodiscard]] Plane luma(const Image& display);
+// Rec. 709's weighted sum of the channels: luma of a display-referred image, luminance of a linear one.
+[[nodiscard]] Plane luma(const Image& image);
 
 // A metric by its name in the JSON, for thresholds.
 struct NamedMetric {

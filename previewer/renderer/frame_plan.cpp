@@ -153,6 +153,12 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     if (!plan.deform) {
         plan.left_out.push_back({"deform", "no visible mesh is skinned or morphs"});
     }
+    if (settings.show == Show::motion) {
+        plan.motion = true;
+        plan.direct = plan.indirect = false;
+        plan.left_out.push_back({"light", "the layer shows motion alone"});
+        return plan;
+    }
     plan_lights(pose, plan);
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, settings, plan);

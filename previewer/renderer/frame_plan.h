@@ -29,6 +29,7 @@ struct FramePlan {
     bool antialias = false;
     bool emission = false;
     bool world_light = false;
+    bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`
     std::vector<LeftOut> left_out;            // and why

@@ -202,6 +202,10 @@ void read_reflected_flux(FrameGraph& graph, const passes::VplImportance& importa
 void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     using namespace passes;
     const PassContext& context = in.context;
+    if (in.plan.motion) {
+        add_motion(graph, context, in.camera, in.previous, in.target);
+        return;
+    }
     const GBuffer gbuffer = add_gbuffer(graph, context, in.camera, in.anything_seen);
 
     TextureHandle direct;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gpu/point_store.h"
+#include "passes/motion.h"
 #include "passes/pass_context.h"
 #include "passes/removed_light.h"
 #include "passes/rsm_gather.h"
@@ -29,6 +30,7 @@ struct PipelineInputs {
     std::vector<const gl::Buffer*> patterns;             // each light's
     gpu::PointStore* points = nullptr;                   // where the plan needs them
     std::vector<Bounce> bounces;                         // plan.bounces of them
+    passes::PreviousFrame previous;                      // where the plan shows motion
     TextureHandle target;
     // Filled where they are there, each for a wait.
     int* gathered_pixels = nullptr;

@@ -190,18 +190,27 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
 }
 
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
-                             gl::TimingMode timing) {
+                             gl::TimingMode timing, const Moment* before) {
     FrameReport report;
     FramePlan plan = plan_frame(scene_, pose, settings);
     report.approximations = plan.approximations;
-    gpu_scene_.set_pose(pose);
-    report.triangles = gpu_scene_.triangles_drawn();
-
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
         pool_.clear();
         color_ = gl::Texture("color", target);
     }
+
+    gl::PassTimer timer(timing);
+    const Moment still{pose, view};
+    const Moment& previous = before != nullptr ? *before : still;
+    if (plan.motion) {
+        if (!previous_) {
+            previous_ = std::make_unique<PreviousFrameSource>();
+        }
+        previous_->draw(gpu_scene_, programs_, pool_, uniforms_, previous, settings, timer, report.executed);
+    }
+    gpu_scene_.set_pose(pose);
+    report.triangles = gpu_scene_.triangles_drawn();
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();
@@ -250,6 +259,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
     const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
+    const passes::PreviousFrame previous_frame =
+        plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
     report.left_out = plan.left_out;
     report.notes = plan.notes;
@@ -259,7 +270,6 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         report.removed.emplace();
     }
 
-    gl::PassTimer timer(timing);
     if (plan.deform) {
         timer.begin("deform");
         passes::run_deform(programs_, gpu_scene_);
@@ -283,6 +293,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .patterns = patterns,
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
                     .bounces = bounces,
+                    .previous = previous_frame,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
                     .removed = report.removed ? &*report.removed : nullptr,

@@ -20,6 +20,7 @@
 #include "renderer/camera_view.h"
 #include "renderer/frame_plan.h"
 #include "renderer/pipeline.h"
+#include "renderer/previous_frame.h"
 #include "renderer/settings.h"
 
 namespace bounce {
@@ -58,9 +59,10 @@ class Renderer {
     Renderer& operator=(Renderer&&) = delete;
 
     // Draws one frame into color(). Does not wait for the GPU unless timing or counting asks for it.
-    // Throws Error(failed) with the pass's name on an OpenGL error.
+    // Throws Error(failed) with the pass's name on an OpenGL error. before: the frame before, which only the
+    // layer that shows motion looks at; null: nothing has moved.
     FrameReport render(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
-                       gl::TimingMode timing = gl::TimingMode::off);
+                       gl::TimingMode timing = gl::TimingMode::off, const Moment* before = nullptr);
 
     // Scene-linear radiance times film exposure, RGBA32F, bottom row first; of the last frame.
     [[nodiscard]] const gl::Texture& color() const { return color_; }
@@ -84,6 +86,7 @@ class Renderer {
     gl::ProgramCache programs_;
     TransientPool pool_;
     gpu::UniformArena uniforms_;
+    std::unique_ptr<PreviousFrameSource> previous_;  // made when motion is first asked for
     gl::Texture color_;
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;

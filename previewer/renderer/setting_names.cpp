@@ -46,7 +46,8 @@ const std::map<std::string, Show>& setting_names<Show>() {
                                                       {"ism", Show::ism},
                                                       {"vpl-visibility", Show::vpl_visibility},
                                                       {"unblurred", Show::unblurred},
-                                                      {"removed", Show::removed}};
+                                                      {"removed", Show::removed},
+                                                      {"motion", Show::motion}};
     return names;
 }
 

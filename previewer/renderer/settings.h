@@ -38,6 +38,7 @@ enum class Show {
     vpl_visibility,  // what one light's map leaves lit
     unblurred,       // indirect light before the blur
     removed,         // light that bounding the lights' kernels takes away
+    motion,          // where each pixel's point of surface was in the frame before
 };
 
 // Light, to be seen through the scene's view transform; the other layers are data.

@@ -130,7 +130,7 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
 }
 
 std::string layer_refusal(const Settings& s) {
-    if (s.show == Show::shaded || s.show == Show::direct) {
+    if (s.show == Show::shaded || s.show == Show::direct || s.show == Show::motion) {
         return {};
     }
     if (s.technique == Technique::direct) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every raster pass over the scene: G-buffer, shadow map, RSM.
+// Every raster pass over the scene: G-buffer, shadow map, RSM, motion.
 #include "shared/bindings.h"
 #include "shared/types.h"
 
@@ -8,13 +8,15 @@ layout(location = ATTRIB_POSITION) in vec3 in_position;
 layout(std140, binding = UBO_VIEW) uniform ViewBlock {
     ViewUniforms view;
 };
+#if !defined(SINGLE_DRAW) || defined(MOTION)
+layout(location = ATTRIB_DRAW) in uint in_draw;
+#endif
 #ifdef SINGLE_DRAW
 // A draw that stands alone: constant offsets of a uniform block are scalar loads on every driver.
 layout(std140, binding = UBO_DRAW) uniform DrawBlock {
     GpuDraw draw;
 };
 #else
-layout(location = ATTRIB_DRAW) in uint in_draw;
 layout(std430, binding = SSBO_DRAWS) readonly buffer DrawBlock {
     GpuDraw draws[];
 };
@@ -58,6 +60,20 @@ layout(location = 5) out vec3 out_light_space;
 #elif !defined(DEPTH_ONLY)
 layout(location = 7) out vec3 out_position;
 #endif
+#ifdef MOTION
+layout(location = 8) out vec4 out_clip;
+layout(location = 9) out vec4 out_previous_clip;
+layout(location = 10) flat out uint out_drawn_before;
+layout(std140, binding = UBO_MOTION) uniform MotionBlock {
+    MotionUniforms motion;
+};
+layout(std430, binding = SSBO_PREVIOUS_DRAWS) readonly buffer PreviousDrawBlock {
+    GpuPreviousDraw previous_draws[];
+};
+layout(std430, binding = SSBO_PREVIOUS_POSITIONS) readonly buffer PreviousPositionBlock {
+    float previous_positions[];
+};
+#endif
 
 void main() {
 #ifndef SINGLE_DRAW
@@ -91,5 +107,15 @@ void main() {
     out_light_space = light_from_render(position);
 #elif !defined(DEPTH_ONLY)
     out_position = position;
+#endif
+#ifdef MOTION
+    GpuPreviousDraw before = previous_draws[in_draw];
+    int first = 3 * gl_VertexID;
+    vec4 q = vec4(previous_positions[first], previous_positions[first + 1], previous_positions[first + 2], 1.0);
+    vec3 previous = vec3(dot(before.render_from_model[0], q), dot(before.render_from_model[1], q),
+                         dot(before.render_from_model[2], q));
+    out_clip = gl_Position;
+    out_previous_clip = motion.clip_from_render * vec4(previous, 1.0);
+    out_drawn_before = uint(before.ids.x);
 #endif
 }

@@ -1,34 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth alone; used only where an alpha test cuts holes.
-#ifdef ALPHA_TEST
-#include "shared/bindings.h"
-#include "shared/types.h"
-
-layout(std430, binding = SSBO_MATERIALS) readonly buffer MaterialBlock {
-    GpuMaterial materials[];
-};
-layout(location = 0) flat in uint in_material;
-#ifdef BASE_COLOR_TEXTURE
-layout(location = 3) in vec4 in_uv_base_mr;
-layout(binding = TEX_BASE_COLOR) uniform sampler2D base_color_texture;
-#endif
-#ifdef VERTEX_COLOR
-layout(location = 4) in vec4 in_color;
-#endif
+// Depth alone; does something only where an alpha test cuts holes.
+#include "lib/alpha_test.glsl"
 
 void main() {
-    GpuMaterial m = materials[in_material];
-    float alpha = m.base_color.a;
-#ifdef BASE_COLOR_TEXTURE
-    alpha *= texture(base_color_texture, in_uv_base_mr.xy).a;
-#endif
-#ifdef VERTEX_COLOR
-    alpha *= in_color.a;
-#endif
-    if (alpha < m.emission.a) {
-        discard;
-    }
+    alpha_test();
 }
-#else
-void main() {}
-#endif

@@ -9,11 +9,14 @@
 #define UBO_VIEW 1
 #define UBO_LIGHT 2
 #define UBO_ISM 3
+#define UBO_MOTION 4
 #define UBO_DRAW 5
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
 #define SSBO_MATERIALS 1
+#define SSBO_PREVIOUS_DRAWS 2
+#define SSBO_PREVIOUS_POSITIONS 3
 #define SSBO_PATTERN 3
 #define SSBO_PIXEL_LIST 4
 #define SSBO_NEAR_COUNT 3
@@ -53,6 +56,7 @@
 #define TEX_LOWRES 12
 #define TEX_GEOMETRIC_NORMAL 13
 #define TEX_DEPTH_SAMPLES 8
+#define TEX_PREVIOUS_DEPTH 4
 
 // Image units.
 #define IMG_OUT 0

@@ -66,6 +66,21 @@ struct GpuDraw {
     ivec4 ids;                  // material, 1 where the transform mirrors, -, -
 };
 
+// The camera of the frame before, for the layer that shows motion.
+struct MotionUniforms {
+    mat4 clip_from_render;
+    mat4 render_from_clip;
+    vec4 eye;               // xyz render space; w: metres a render unit
+    vec4 forward;           // xyz unit; w: width of a pixel at distance 1 (orthographic: everywhere)
+    vec4 picture;           // width, height (pixels), 1 perspective or 0 orthographic, -
+};
+
+// Where a draw's model stood in the frame before.
+struct GpuPreviousDraw {
+    vec4 render_from_model[3];  // rows
+    ivec4 ids;                  // 1 where it was drawn then, -, -, -
+};
+
 // A virtual point light: one sample of what the lights' reflective shadow maps reflect.
 struct GpuVpl {
     vec4 position;          // xyz render space; w: surface area it stands for

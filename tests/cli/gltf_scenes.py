@@ -125,3 +125,60 @@ def write_gltf(path, document, data=None):
     document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     path.write_text(json.dumps(document))
     return path
+
+
+def room():
+    """An open room of squares, 2 m wide: red to the left, green to the right, and a plate in the air, under a spot that
+    stands still. Frames 1 to 8 at 24 a second, in which the plate glides 0.6 m to the right."""
+    document = square()
+    half = 0.70710678
+    document["nodes"] = [
+        {"name": "Floor", "mesh": 0, "translation": [0, -1, 0], "rotation": [-half, 0, 0, half]},
+        {"name": "Back", "mesh": 0, "translation": [0, 0, -1]},
+        {"name": "Left", "mesh": 1, "translation": [-1, 0, 0], "rotation": [0, half, 0, half]},
+        {"name": "Right", "mesh": 2, "translation": [1, 0, 0], "rotation": [0, -half, 0, half]},
+        {"name": "Plate", "mesh": 0, "translation": [-0.3, -0.3, 0.2], "rotation": [-half, 0, 0, half], "scale": [0.25] * 3},
+        {"name": "Camera", "camera": 0, "translation": [0, 0, 3.6]},
+        {"name": "Spot", "translation": [0.1, 0.95, 0.1], "rotation": [-half, 0, 0, half],
+         "extensions": {"BOUNCE_scene": {"light": 0}}},
+    ]
+    document["scenes"][0]["nodes"] = list(range(7))
+    document["cameras"] = [{"type": "perspective", "perspective": {"yfov": 0.62, "znear": 0.1, "zfar": 100}}]
+    document["materials"] = [
+        {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [*color, 1]}, "doubleSided": True}
+        for color in ([0.75, 0.75, 0.75], [0.7, 0.08, 0.06], [0.1, 0.6, 0.12])
+    ]
+    document["meshes"] = [
+        {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": material}]} for material in range(3)
+    ]
+    document["bufferViews"] += [
+        {"buffer": 0, "byteOffset": 60, "byteLength": 8},
+        {"buffer": 0, "byteOffset": 68, "byteLength": 24},
+    ]
+    document["accessors"] += [
+        {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [7 / 24]},
+        {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"},
+    ]
+    document["buffers"][0]["byteLength"] = 92
+    document["animations"] = [
+        {
+            "name": "Scene",
+            "channels": [{"sampler": 0, "target": {"node": 4, "path": "translation"}}],
+            "samplers": [{"input": 2, "output": 3}],
+        }
+    ]
+    document["extensionsUsed"] = ["BOUNCE_scene"]
+    document["extensions"] = {
+        "BOUNCE_scene": {
+            **lit_square()["extensions"]["BOUNCE_scene"],
+            "frames": {"start": 1, "end": 8, "fps": 24},
+            "camera": 5,
+        }
+    }
+    light = document["extensions"]["BOUNCE_scene"]["lights"][0]
+    light.update(power_w=60, cone_angle_rad=1.5)
+    return document
+
+
+def room_buffer():
+    return square_buffer() + struct.pack("<2f", 0, 7 / 24) + struct.pack("<6f", -0.3, -0.3, 0.2, 0.3, -0.3, 0.2)

@@ -69,6 +69,7 @@ LAYERS = {
     "interpolation": RSM,
     "ism-splats": ["--splat", "compute"],
     "removed": ["--near-field", "off"],
+    "motion": [],
 }
 
 

@@ -146,6 +146,10 @@ def test_what_cannot_be_drawn_is_refused_before_the_scene_is_read(bounce, tmp_pa
     assert not list(tmp_path.iterdir())
 
 
+def test_motion_is_of_two_frames_and_not_for_the_window(bounce):
+    refused(bounce("view", "nowhere.glb", "--show", "motion"), "--show motion", "bounce render")
+
+
 def test_an_atlas_beyond_the_driver_names_what_to_lower(render, scene, tmp_path):
     """16,384 maps of 256 texels make an atlas of 32,768 a side, which no driver holds today."""
     result = render(scene, "-o", "a.png", "--vpls", "16384", "--ism-size", "256")

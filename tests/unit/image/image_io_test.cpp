@@ -92,6 +92,14 @@ TEST(ImageIo, ExrRoundsToTheNearestHalfAndClipsWhatHalfCannotHold) {
     EXPECT_TRUE(std::isnan(read.rgb[4]));
 }
 
+TEST(ImageIo, ExrKeepsWholeFloatsWhereAskedTo) {
+    const TemporaryFolder folder;
+    // Neither the digits nor the range of these fit a half float.
+    const Image image = two_by_two({1.2345678F, -123.456F, 1e6F, 3e-7F, 0, 1, 2, 3, 4, 5, 6, 7});
+    write_image(folder / "a.exr", image, {}, ExrValues::full);
+    EXPECT_EQ(read_image(folder / "a.exr").rgb, image.rgb);
+}
+
 TEST(ImageIo, ExrCarriesAttributes) {
     const TemporaryFolder folder;
     write_image(folder / "a.exr", Image(2, 2), {{"bounce:scene", "cornell.glb"}, {"bounce:frame", "12"}});

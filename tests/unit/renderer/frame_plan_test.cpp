@@ -206,6 +206,19 @@ TEST_F(FramePlanTest, LayersLeaveOutTheLightThatTheyDoNotShow) {
     EXPECT_TRUE(plan().direct) << "the picture under the dots";
 }
 
+TEST_F(FramePlanTest, MotionNeedsNoLight) {
+    settings_.technique = Technique::ism;
+    settings_.show = Show::motion;
+    const FramePlan found = plan();
+    EXPECT_TRUE(found.motion);
+    EXPECT_FALSE(found.direct || found.indirect || found.vpls || found.antialias || found.world_light);
+    EXPECT_TRUE(found.lights.empty());
+    EXPECT_TRUE(found.notes.empty()) << "nothing that was asked for is missing";
+    EXPECT_EQ(reason(found, "light"), "the layer shows motion alone");
+    settings_.show = Show::shaded;
+    EXPECT_FALSE(plan().motion);
+}
+
 TEST_F(FramePlanTest, SaysWhyThereIsNoBouncedLight) {
     const auto note = [&] {
         const FramePlan p = plan();

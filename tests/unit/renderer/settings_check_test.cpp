@@ -130,8 +130,8 @@ TEST(LayerRefusal, SaysWhyALayerIsNotThere) {
         return layer_refusal(settings);
     };
     for (const auto& [name, show] : setting_names<Show>()) {
-        const bool light = show == Show::shaded || show == Show::direct;
-        EXPECT_EQ(why({.technique = Technique::direct}, show).empty(), light) << name;
+        const bool there = show == Show::shaded || show == Show::direct || show == Show::motion;
+        EXPECT_EQ(why({.technique = Technique::direct}, show).empty(), there) << name;
     }
     EXPECT_EQ(why({.technique = Technique::rsm}, Show::interpolation), "");
     EXPECT_THAT(why({.technique = Technique::rsm, .interpolate = false}, Show::interpolation),
@@ -151,7 +151,7 @@ TEST(LayerRefusal, SaysWhyALayerIsNotThere) {
 
 TEST(SettingNames, NameEveryValueOnce) {
     EXPECT_EQ(name_of(Show::vpl_visibility), "vpl-visibility");
-    EXPECT_EQ(setting_names<Show>().size(), static_cast<size_t>(Show::removed) + 1);
+    EXPECT_EQ(setting_names<Show>().size(), static_cast<size_t>(Show::motion) + 1);
     for (const auto& [name, show] : setting_names<Show>()) {
         EXPECT_EQ(name_of(show), name);
     }
