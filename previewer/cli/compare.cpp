@@ -54,8 +54,8 @@ void check(const CompareArguments& arguments) {
 ExitCode compare_images(const CompareArguments& arguments) {
     check(arguments);
     const std::vector<Threshold> thresholds = parse_thresholds(arguments.fail_above, false);
-    const Image test = read_scene_linear(arguments.image);
-    const Image reference = read_scene_linear(arguments.reference);
+    const Image test = read_exposed(arguments.image, arguments.exposure_stops);
+    const Image reference = read_exposed(arguments.reference, arguments.exposure_stops);
     const Metrics metrics = compare(test, reference);
     print_table(metrics);
     if (!arguments.json.empty()) {
@@ -67,6 +67,17 @@ ExitCode compare_images(const CompareArguments& arguments) {
 }
 
 }  // namespace
+
+Image read_exposed(const std::filesystem::path& path, double exposure_stops) {
+    Image image = read_scene_linear(path);
+    if (exposure_stops != 0.0) {
+        const auto scale = static_cast<float>(std::exp2(exposure_stops));
+        for (float& value : image.rgb) {
+            value *= scale;
+        }
+    }
+    return image;
+}
 
 void add_compare(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand(
@@ -85,6 +96,16 @@ void add_compare(CLI::App& app, Run& run) {
         "Sequences: files of 'render --show motion', by which surfaces are followed from frame to frame");
     command->add_flag("--hdr-flip", arguments->hdr_flip,
                       "Sequences: HDR-FLIP of each frame too, which takes most of the time");
+    command
+        ->add_option("--exposure", arguments->exposure_stops,
+                     "Multiply both by two to this many stops first; relMSE, SMAPE and all that follows the "
+                     "view transform depend on it")
+        ->check([](const std::string& text) {
+            double stops = 0.0;
+            return CLI::detail::lexical_cast(text, stops) && std::abs(stops) <= 64.0
+                       ? std::string{}
+                       : fmt::format("{} is not a number of stops from -64 to 64", text);
+        });
     command->add_option("--json", arguments->json, "Write every metric to this file");
     command->add_option("--heatmap", arguments->pictures.heatmap, "Write a colour map of the error (PNG)");
     command->add_option("--heatmap-of", arguments->pictures.heatmap_of, "What the colour map shows")

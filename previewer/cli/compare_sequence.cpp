@@ -112,11 +112,11 @@ void print_whole(const SequenceMetrics& m) {
                "frames", m.frames.size(), "size", fmt::format("{}x{}", m.width, m.height));
 }
 
-std::optional<Image> read_frame(const std::string& pattern, int frame) {
+std::optional<Image> read_frame(const std::string& pattern, int frame, double exposure_stops) {
     if (pattern.empty()) {
         return std::nullopt;
     }
-    return read_scene_linear(frame_path(pattern, frame));
+    return read_exposed(frame_path(pattern, frame), exposure_stops);
 }
 
 }  // namespace
@@ -141,10 +141,11 @@ ExitCode compare_sequence(const CompareArguments& arguments) {
     const InterruptGuard interrupts;
     for (const int frame : frames) {
         interrupts.throw_if_interrupted(fmt::format("frame {} was to be compared next", frame));
-        const Image test = read_scene_linear(frame_path(arguments.image, frame));
-        const std::optional<Image> reference = read_frame(arguments.reference, frame);
+        const Image test = read_exposed(frame_path(arguments.image, frame), arguments.exposure_stops);
+        const std::optional<Image> reference =
+            read_frame(arguments.reference, frame, arguments.exposure_stops);
         const std::optional<Image> motion =
-            frame == frames.front() ? std::nullopt : read_frame(arguments.motion, frame);
+            frame == frames.front() ? std::nullopt : read_frame(arguments.motion, frame, 0.0);
         meter.add(frame, test, reference ? &*reference : nullptr, motion ? &*motion : nullptr);
         if (reference) {
             write_pictures(arguments.pictures, test, *reference, frame);

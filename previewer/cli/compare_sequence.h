@@ -7,6 +7,7 @@
 
 #include "cli/compare_pictures.h"
 #include "core/error.h"
+#include "image/image.h"
 
 namespace bounce::cli {
 
@@ -20,7 +21,11 @@ struct CompareArguments {
     ComparePictures pictures;
     std::vector<std::string> fail_above;
     bool hdr_flip = false;
+    double exposure_stops = 0.0;  // both are multiplied by two to this before they are compared
 };
+
+// A picture as it is compared: scene-linear, exposed. Throws input_error.
+[[nodiscard]] Image read_exposed(const std::filesystem::path& path, double exposure_stops);
 
 // compare with a sequence: prints figures a frame and of the whole. Throws Error.
 [[nodiscard]] ExitCode compare_sequence(const CompareArguments& arguments);

@@ -70,10 +70,13 @@ float widened_lobe(float a_dot_b, float sum_of_cosines, float smith_a, float smi
     return lobe(a_dot_b, sum_of_cosines, smith_a, smith_b, min(alpha2 + widening, 1.0)) * widening_gain(widening);
 }
 
-// Schlick's rise of the Fresnel reflectance from normal incidence to grazing, from the cosine between the two
-// directions.
+// Rise of the Fresnel reflectance from normal incidence, 0, to grazing, 1, from the cosine between the two directions: a
+// fit to that of an index of refraction of 1.5, Principled's default, with the same mean over the hemisphere (0.054) and
+// 0.018 off at most. Schlick's (1 - cos)^5 has a mean of 0.048, and a rough white wall loses 0.9 % of its light by it.
 float rise_between(float a_dot_b) {
-    return fifth_power(1.0 - sqrt(clamp(0.5 + 0.5 * a_dot_b, 0.0, 1.0)));
+    float x = 1.0 - sqrt(clamp(0.5 + 0.5 * a_dot_b, 0.0, 1.0));
+    float y = x * x;
+    return y * (0.14 + 0.86 * y * y);
 }
 
 float disney_factor(float roughness, float a_dot_b, float fifth_a, float fifth_b) {

@@ -177,8 +177,9 @@ void main() {
     // has its due; the light then stands in the middle of those that lie on it.
     float wanted = (float(hash(uint(index)) % uint(CHILDREN)) + 0.5) / float(CHILDREN) * flux;
 #ifdef STRIPS
-    // Where strips one after the other lie across the same edge, they take turns.
-    wanted = radical_inverse(2u, uint(cell.y)) * flux;
+    // Where strips one after the other lie across the same edge, they take turns; never where two children meet,
+    // where rounding would decide.
+    wanted = fract(radical_inverse(2u, uint(cell.y)) + 0.31 / float(CHILDREN)) * flux;
 #endif
     int picked = 0;
     float sum = 0.0;
@@ -222,7 +223,8 @@ void main() {
     float least = 1e30;
     for (int i = 0; i < CHILDREN; ++i) {
         vec3 d = children[i].position - center;
-        if (member[i] && dot(d, d) < least) {
+        // By more than rounding: of two that are as near, the first.
+        if (member[i] && dot(d, d) < 0.999 * least) {
             least = dot(d, d);
             middle = children[i];
         }

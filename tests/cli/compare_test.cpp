@@ -104,6 +104,16 @@ TEST_F(CompareCommand, RefusesImagesThatCannotBeCompared) {
     EXPECT_THAT(missing.output, HasSubstr("missing.exr"));
 }
 
+TEST_F(CompareCommand, ExposureScalesBothBeforeTheyAreCompared) {
+    // (0.1 f)^2 / ((0.6 f)^2 + 0.01), f = 1 and 2^-1; 0.6 as a half.
+    EXPECT_THAT(compare({"a.exr", "b.exr"}).output, HasSubstr("relmse          0.0270"));
+    const ProcessResult darker = compare({"a.exr", "b.exr", "--exposure", "-1"});
+    EXPECT_THAT(darker.output, HasSubstr("relmse          0.0250"));
+    EXPECT_THAT(darker.output, HasSubstr("bias            -0.1668"));
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--exposure", "65"}).exit_code, 2);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--exposure", "nan"}).exit_code, 2);
+}
+
 TEST_F(CompareCommand, PngIsDecodedToLinear) {
     write(0.735357F, "a.png");  // what 0.5 looks like
     const ProcessResult result = compare({"a.png", "a.exr", "--fail-above", "relmse=1e-4"});

@@ -110,7 +110,9 @@ TEST(PointMaterials, MeanOverManyPointsIsTheImages) {
     }
     Textured t(width, height, texels);
     t.material().base_color_texture.texture = 0;
-    for (const size_t count : {size_t{64}, size_t{4096}}) {
+    // Points of a map are jittered along a curve: on a ramp 64 of them stray by 2 %, and 4,096 by what few
+    // texels of noise each of them sees. Both limits are three times that.
+    for (const auto& [count, tolerance] : {std::pair{size_t{64}, 0.06}, std::pair{size_t{4096}, 0.015}}) {
         PointCounts counts;
         counts.reflectors = count;
         counts.reflectors_a_map = count;
@@ -121,7 +123,7 @@ TEST(PointMaterials, MeanOverManyPointsIsTheImages) {
         }
         sum /= static_cast<double>(count);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(sum[c] / mean[c], 1.0, 0.03) << count << " points, channel " << c;
+            EXPECT_NEAR(sum[c] / mean[c], 1.0, tolerance) << count << " points, channel " << c;
         }
     }
 }
