@@ -164,9 +164,6 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.near_field = plan.vpls && settings.near_field;
-    if (plan.near_field) {
-        plan.approximations.emplace_back("light from next to its source is not occluded (near field)");
-    }
     plan.glossy = plan.vpls && settings.glossy_bounces;
     plan.occluded = plan.vpls && settings.visibility != Visibility::none;
     plan.bounces = plan.vpls ? settings.bounces : 0;
