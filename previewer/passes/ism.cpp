@@ -101,6 +101,7 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
         return [context, inputs, set, out, has_triangles](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) defines["SHARED"] = "1";
+            if (inputs.close) defines["CLOSE"] = "1";
             if (has_triangles) defines["OVER_TRIANGLES"] = "1";
             if (!fits_shared(set) && !has_triangles) clear_atlas(resources.texture(out));
             context.programs.compute("passes/ism_disks.comp", defines).use();
@@ -110,7 +111,7 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
             dispatch_splats(set);
         };
     });
-    return fits_shared(set) ? out : add_close(graph, context, set, out);
+    return fits_shared(set) || !inputs.close ? out : add_close(graph, context, set, out);
 }
 
 TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const PullPushSettings& settings,

@@ -50,6 +50,7 @@ struct IsmInputs {
     ScenePoints scene;
     int large_triangles = 0;
     Splat splat = Splat::disks;
+    bool close = true;  // disks: bare places inside surfaces (shaders/lib/ism_close.glsl)
     PullPushSettings pull_push;
 };
 

@@ -61,9 +61,9 @@ CameraMatrices camera_matrices(const CameraView& view, int width, int height, co
     CameraMatrices out;
     out.perspective = camera.perspective;
     const glm::dvec3 back = glm::normalize(glm::dvec3(view.world_from_camera[2]));
-    glm::dvec3 right = glm::normalize(glm::dvec3(view.world_from_camera[0]));
-    const glm::dvec3 up = glm::normalize(glm::cross(back, right));
-    right = glm::cross(up, back);
+    // From the upward axis, so that a mirrored parent turns no picture over: a camera has no scale.
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(view.world_from_camera[1]), back));
+    const glm::dvec3 up = glm::cross(back, right);
     out.position = space.point(glm::dvec3(view.world_from_camera[3]));
     out.forward = -back;
 

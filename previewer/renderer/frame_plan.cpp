@@ -110,12 +110,14 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     bool blend = false;
     bool emitters = false;
     bool reflects = false;
+    bool holes = false;
     for_each_material(scene, pose, [&](const scene::Material& material) {
         const bool shines = !material.unlit && !is_dark(material.emission * material.emission_strength);
         emitters |= shines;
         plan.emission |= shines || material.unlit;  // an unlit surface shows its colour as if it emitted it
         plan.narrow_lobes |= glossy && has_narrow_lobe(material);
         blend |= material.alpha_mode == scene::AlphaMode::blend;
+        holes |= material.alpha_mode != scene::AlphaMode::opaque;
         // Where a texture says what is metal, the factor 1 is only glTF's default.
         const float metallic =
             glossy || material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
@@ -126,6 +128,12 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
         leave_out_bounces(plan, "nothing that is drawn has a triangle");
     } else if (!reflects && !(glossy && draws_default_material(scene, pose))) {
         leave_out_bounces(plan, glossy ? "no surface reflects light" : "no surface reflects diffusely");
+    }
+    // A hole between the parts of a cut-out looks like a place that points left bare.
+    plan.close_maps = !holes && settings.splat == Splat::disks && settings.visibility == Visibility::ism &&
+                      settings.technique == Technique::ism;
+    if (holes) {
+        plan.left_out.push_back({"ism close", "a material has holes, which closing would fill"});
     }
     if (blend) {
         plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");

@@ -24,6 +24,7 @@ struct FramePlan {
     int bounces = 0;            // of light by virtual point lights
     bool glossy = false;        // with the glossy lobes of lights and receivers
     bool narrow_lobes = false;  // some so narrow that they change within a block of interleaved pixels
+    bool close_maps = false;    // bare places in maps of disks are closed
     bool near_field = false;    // what is near the lights is gathered from the RSMs
     bool interpolate = false;
     bool antialias = false;

@@ -90,6 +90,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                            {.scene = scene,
                             .large_triangles = static_cast<int>(in.points->large_triangles()),
                             .splat = in.settings.splat,
+                            .close = in.plan.close_maps,
                             .pull_push = {in.settings.pull_push, in.settings.pull_push_levels,
                                           in.settings.pull_threshold, in.settings.push_threshold}},
                            drawn.set);

@@ -72,7 +72,11 @@ void main() {
     barrier();
     for (int i = me; i < MAP_SIZE * MAP_SIZE; i += GROUP_SPLAT) {
         ivec2 texel = ivec2(i % MAP_SIZE, i / MAP_SIZE);
+#ifdef CLOSE
         imageStore(atlas_image, origin + texel, uvec4(closed_texel(texel)));
+#else
+        imageStore(atlas_image, origin + texel, uvec4(nearest[i]));
+#endif
     }
 #else
     int index = int(gl_GlobalInvocationID.y) * GROUP_SPLAT + me;

@@ -10,6 +10,7 @@
 
 #include "scene/points/deformed_positions.h"
 #include "scene/points/flat_cover.h"
+#include "scene/points/morton.h"
 #include "scene/primitive_bounds.h"
 
 namespace bounce::scene {
@@ -49,17 +50,6 @@ glm::dvec3 area_vector(const Positions& p, const glm::uvec3& t) {
     return glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
 }
 
-// Interleaves the lowest ten bits of three numbers.
-uint32_t morton(const glm::uvec3& v) {
-    uint32_t code = 0;
-    for (uint32_t bit = 0; bit < 10; ++bit) {
-        for (int axis = 0; axis < 3; ++axis) {
-            code |= ((v[axis] >> bit) & 1U) << (3 * bit + static_cast<uint32_t>(axis));
-        }
-    }
-    return code;
-}
-
 // Triangles that lie near each other stand near each other, so that points even in area are even in space.
 void sort_along_curve(const Positions& p, Triangles& triangles) {
     glm::dvec3 low(1e300);
@@ -90,10 +80,15 @@ AreaTable make_table(const Positions& p, Triangles triangles) {
     table.triangles = std::move(triangles);
     double sum = 0.0;
     for (const glm::uvec3& triangle : table.triangles) {
-        const double area = 0.5 * glm::length(area_vector(p, triangle));
-        sum += std::isfinite(area) ? area : 0.0;
+        const double length = 0.5 * glm::length(area_vector(p, triangle));
+        const double area = std::isfinite(length) ? length : 0.0;
+        sum += area;
         table.cumulative.push_back(sum);
+        if (area > 0.0) {
+            table.center += area / 3.0 * (p[triangle.x] + p[triangle.y] + p[triangle.z]);
+        }
     }
+    table.center /= std::max(sum, 1e-300);
     return table;
 }
 
@@ -360,12 +355,14 @@ class Cutter {
                scene_.materials[at(primitive.material)].alpha_mode != AlphaMode::opaque;
     }
 
-    void add_tables(uint32_t surface, const Cut& cut, double scale) {
+    // to_world: from the space of the cut's positions.
+    void add_tables(uint32_t surface, const Cut& cut, double scale, const glm::dmat4& to_world) {
         const bool holes = cut_out(primitive_of(out_.surfaces[surface]));
         for (const Piece& piece : cut) {
             const double area = piece.table->cumulative.back() * scale;
             if (area > 0.0 && std::isfinite(area)) {
-                out_.parts.push_back({surface, piece.table, piece.cover, area, holes});
+                const glm::dvec3 center(to_world * glm::dvec4(piece.table->center, 1.0));
+                out_.parts.push_back({surface, piece.table, piece.cover, area, center, holes});
             }
         }
     }
@@ -378,7 +375,7 @@ class Cutter {
             add_tables(
                 index,
                 cut_primitive(primitive, deformed_positions(scene_, poses_.front(), surface), 1.0, false),
-                1.0);
+                1.0, glm::dmat4(1.0));
             return;
         }
         if (scales_alike(placement.world_from_model)) {
@@ -390,14 +387,14 @@ class Cutter {
                                                         true))
                             .first;
             }
-            add_tables(index, found->second, placement.scale);
+            add_tables(index, found->second, placement.scale, placement.world_from_model);
             return;
         }
         Positions world = positions_of(surface);
         for (glm::dvec3& position : world) {
             position = glm::dvec3(placement.world_from_model * glm::dvec4(position, 1.0));
         }
-        add_tables(index, cut_primitive(primitive, world, 1.0, true), 1.0);
+        add_tables(index, cut_primitive(primitive, world, 1.0, true), 1.0, glm::dmat4(1.0));
     }
 
     const Scene& scene_;

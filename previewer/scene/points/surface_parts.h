@@ -29,6 +29,7 @@ struct PointSurface {
 struct AreaTable {
     std::vector<glm::uvec3> triangles;  // corners: vertices of a primitive; along a space-filling curve
     std::vector<double> cumulative;     // parallel to triangles; any unit
+    glm::dvec3 center{0.0};             // mean over the area; model space, or world space of what deforms
     bool flat = false;                  // all in one plane
     glm::dvec3 point{0.0};              // on that plane, model space; flat only
     glm::dvec3 normal{0.0};
@@ -42,6 +43,7 @@ struct SurfacePart {
     // itself, and always where the material has holes.
     std::shared_ptr<const AreaTable> cover;
     double area_m2 = 0.0;
+    glm::dvec3 center_world{0.0};
     bool cut_out = false;  // its material has holes: parts of its triangles are not there
 };
 

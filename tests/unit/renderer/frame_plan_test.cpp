@@ -274,6 +274,18 @@ TEST_F(FramePlanTest, AMetallicTextureMayLeaveDiffuseParts) {
     EXPECT_TRUE(plan().indirect) << "the texture decides, not the factor";
 }
 
+TEST_F(FramePlanTest, MapsAreNotClosedOverHoles) {
+    settings_ = {};
+    EXPECT_TRUE(plan().close_maps);
+    EXPECT_EQ(reason(plan(), "ism close"), "");
+    scene_.materials[0].alpha_mode = scene::AlphaMode::mask;
+    EXPECT_FALSE(plan().close_maps);
+    EXPECT_THAT(reason(plan(), "ism close"), HasSubstr("holes"));
+    scene_.materials[0].alpha_mode = scene::AlphaMode::opaque;
+    settings_.splat = Splat::compute;
+    EXPECT_FALSE(plan().close_maps) << "squares are closed by pull-push";
+}
+
 TEST_F(FramePlanTest, InterpolationIsOffWhereEveryPixelIsAskedFor) {
     const auto is_off = [&](const Settings& settings) {
         settings_ = settings;

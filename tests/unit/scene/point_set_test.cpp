@@ -258,6 +258,32 @@ TEST(PointSet, RowsOfReflectorsArePatchesOfALargeTriangle) {
     EXPECT_NEAR(mean_x, 1.0 / 3.0, 2e-3) << "the triangle's centroid; random points would stray by 2.6e-3";
 }
 
+TEST(PointSet, ReflectorsFollowPlacesNotTheOrderOfNodes) {
+    const auto reflectors = [](bool turned_round) {
+        Scene scene;
+        const int mesh = add_mesh(scene, square(1.0F));
+        std::vector<glm::dvec3> at = {{0, 0, 0}, {3, 0, 1}, {6, 1, 0}, {1, 5, 2}};
+        if (turned_round) {
+            std::reverse(at.begin(), at.end());
+        }
+        for (const glm::dvec3& place : at) {
+            place_mesh(scene, mesh, moved(place));
+        }
+        const SurfaceParts parts = surface_parts(scene, k_all_animations);
+        PointCounts counts;
+        counts.reflectors_a_map = 64;
+        counts.reflectors = 256;
+        std::vector<glm::dvec3> out;
+        for (const PointSample& point :
+             sample_points(parts, std::vector<bool>(parts.parts.size(), false), counts).reflectors) {
+            const PointSurface& surface = parts.surfaces[point.surface];
+            out.emplace_back(at[static_cast<size_t>(surface.node)].x, point.second, point.third);
+        }
+        return out;
+    };
+    EXPECT_EQ(reflectors(false), reflectors(true));
+}
+
 TEST(PointSet, FlatPointsLieOnPlanes) {
     Scene scene;
     const int soup = place_mesh(scene, add_mesh(scene, triangle_soup(300, 2)));
