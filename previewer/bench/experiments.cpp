@@ -114,6 +114,10 @@ BenchReport run_experiment(const Experiment& experiment, const BenchInputs& inpu
                        {"interleave", fmt::format("{0}x{0}", settings.interleave)},
                        {"bounces", std::to_string(settings.bounces)}};
     experiment.run(inputs, report);
+    if (inputs.options.quick) {
+        report.notes.emplace_back(
+            "A quick run is smaller than what is to be reached was set for; whether it is met says little.");
+    }
     return report;
 }
 
