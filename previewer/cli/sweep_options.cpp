@@ -44,11 +44,13 @@ void SweepOptions::add_to(CLI::App& command) {
         ->type_name("NAME,...");
     command.add_flag("--resume", resume,
                      "Take points that an earlier run with the same inputs has left in the output folder");
-    command.add_option("--reference", reference,
-                       "Image to compare with instead of rendering one with Cycles, #### for the frame's number; "
-                       "without --cycles-spp Blender is not needed");
-    command.add_option("--baseline", baseline,
-                       "Earlier results.json or baseline: ends with 5 where an error has risen; times do not count");
+    command.add_option(
+        "--reference", reference,
+        "Image to compare with instead of rendering one with Cycles, #### for the frame's number; "
+        "without --cycles-spp Blender is not needed");
+    command.add_option(
+        "--baseline", baseline,
+        "Earlier results.json or baseline: ends with 5 where an error has risen; times do not count");
     command.add_option("--save-baseline", save_baseline, "Write this run's errors as a baseline");
 }
 
@@ -64,9 +66,10 @@ void SweepOptions::apply(const CLI::App& command, const std::filesystem::path& o
             throw usage_error("--reference-spp has no effect with --reference, which is not rendered");
         }
         if (options.frames.size() > 1 && !has_frame_field(reference)) {
-            throw usage_error(fmt::format("--reference {} is one image for {} frames; put #### where the frame's "
-                                          "number belongs",
-                                          reference, options.frames.size()));
+            throw usage_error(
+                fmt::format("--reference {} is one image for {} frames; put #### where the frame's "
+                            "number belongs",
+                            reference, options.frames.size()));
         }
         options.given_reference = reference;
         if (command.count("--cycles-spp") == 0) {

@@ -63,8 +63,8 @@ void check_file(const TunedSettings& tuned, const std::string& file) {
             throw input_error(fmt::format("the tuning file {} gives the unknown option {}", file, word));
         }
         if (!chooses_settings(*option)) {
-            throw input_error(
-                fmt::format("the tuning file {} gives {}, which is no option of how light is drawn", file, word));
+            throw input_error(fmt::format(
+                "the tuning file {} gives {}, which is no option of how light is drawn", file, word));
         }
     }
     const auto refuse = [&](const std::exception& error) {
@@ -101,12 +101,13 @@ RenderOptions with_tuning(const CLI::App& command, const RenderOptions& typed) {
     }
     if (!typed.budget_ms || typed.tuning.empty()) {
         throw usage_error(
-            "--budget-ms and --tuning need each other: the file, which bounce evaluate writes as tuning.json, "
+            "--budget-ms and --tuning need each other: the file, which bounce evaluate writes as "
+            "tuning.json, "
             "has the settings that win within a time a frame");
     }
     if (typed.preset && *typed.preset != "auto") {
-        throw usage_error(fmt::format("--preset {} and --budget-ms both choose the settings; give one of them",
-                                      *typed.preset));
+        throw usage_error(fmt::format(
+            "--preset {} and --budget-ms both choose the settings; give one of them", *typed.preset));
     }
     const Tuning tuning = read_tuning(typed.tuning);
     const TunedSettings& tuned = require_settings(tuning, typed);
@@ -141,10 +142,12 @@ void note_other_conditions(const RenderOptions& options, const Settings& setting
         log::info("note: {} was measured at {}x{}, this is {}x{}; its times are not these frames'",
                   options.tuning, tuning.width, tuning.height, settings.width, settings.height);
     }
-    if (const Machine machine = this_machine(); tuning.cpu != machine.cpu || tuning.threads != machine.threads) {
-        log::info("note: {} was measured on {} with {} threads, this is {} with {}; its times are not these "
-                  "frames'",
-                  options.tuning, tuning.cpu, tuning.threads, machine.cpu, machine.threads);
+    if (const Machine machine = this_machine();
+        tuning.cpu != machine.cpu || tuning.threads != machine.threads) {
+        log::info(
+            "note: {} was measured on {} with {} threads, this is {} with {}; its times are not these "
+            "frames'",
+            options.tuning, tuning.cpu, tuning.threads, machine.cpu, machine.threads);
     }
 }
 

@@ -41,8 +41,8 @@ std::map<std::string, Tolerance> parse_tolerances(const nlohmann::json& json,
         const Tolerance tolerance{item.at("relative"), item.at("absolute"), item.at("reason")};
         // Negated, so that NaN is refused too.
         if (!(tolerance.relative >= 0.0) || !(tolerance.absolute >= 0.0) || tolerance.reason.empty()) {
-            throw unusable(path, fmt::format("the tolerance of {} needs two numbers of 0 or more and a reason",
-                                             name));
+            throw unusable(
+                path, fmt::format("the tolerance of {} needs two numbers of 0 or more and a reason", name));
         }
         tolerances[name] = tolerance;
     }
@@ -57,8 +57,7 @@ BaselinePoint parse_point(const nlohmann::json& item, const std::string& curve,
     for (const NamedError& error : k_errors) {
         const auto& value = item.at(error.name);
         if (!value.is_number()) {
-            throw unusable(path,
-                           fmt::format("{} of {}, {} is not a number", error.name, curve, point.label));
+            throw unusable(path, fmt::format("{} of {}, {} is not a number", error.name, curve, point.label));
         }
         point.*error.before = value;
     }
@@ -80,12 +79,12 @@ void require_same_conditions(const Baseline& baseline, const Evaluation& evaluat
                            bounces);
     };
     const std::string before = text(baseline.width, baseline.height, baseline.frames, baseline.bounces);
-    const std::string now =
-        text(evaluation.width, evaluation.height, evaluation.frames, evaluation.bounces);
+    const std::string now = text(evaluation.width, evaluation.height, evaluation.frames, evaluation.bounces);
     if (before != now || baseline.scene != evaluation.scene) {
-        throw input_error(fmt::format("the baseline is of {}, {}, the run of {}, {}; errors of the two cannot "
-                                      "be compared",
-                                      baseline.scene, before, evaluation.scene, now));
+        throw input_error(
+            fmt::format("the baseline is of {}, {}, the run of {}, {}; errors of the two cannot "
+                        "be compared",
+                        baseline.scene, before, evaluation.scene, now));
     }
 }
 
@@ -107,8 +106,8 @@ void compare_point(const Baseline& baseline, const BaselinePoint& before, const 
         not_finite += frame.not_finite;
     }
     if (not_finite > 0) {
-        regressions.push_back(fmt::format("{}, {}: {} values are NaN or infinite", before.curve, before.label,
-                                          not_finite));
+        regressions.push_back(
+            fmt::format("{}, {}: {} values are NaN or infinite", before.curve, before.label, not_finite));
     }
 }
 
@@ -116,7 +115,9 @@ void compare_point(const Baseline& baseline, const BaselinePoint& before, const 
 
 const std::map<std::string, Tolerance>& default_tolerances() {
     static const std::map<std::string, Tolerance> tolerances = {
-        {"relmse", {0.05, 1e-5, "one driver repeats every bit; another rounds otherwise and so draws a few other lights"}},
+        {"relmse",
+         {0.05, 1e-5,
+          "one driver repeats every bit; another rounds otherwise and so draws a few other lights"}},
         {"flip_ldr", {0.03, 5e-4, "as of relmse; FLIP changes less, because it is no square"}},
         {"bias", {0.05, 2e-3, "as of relmse; another set of lights of the same size is off by so much"}}};
     return tolerances;
@@ -125,9 +126,8 @@ const std::map<std::string, Tolerance>& default_tolerances() {
 nlohmann::ordered_json baseline_json(const Evaluation& evaluation) {
     nlohmann::ordered_json tolerances = nlohmann::ordered_json::object();
     for (const auto& [name, tolerance] : default_tolerances()) {
-        tolerances[name] = {{"relative", tolerance.relative},
-                            {"absolute", tolerance.absolute},
-                            {"reason", tolerance.reason}};
+        tolerances[name] = {
+            {"relative", tolerance.relative}, {"absolute", tolerance.absolute}, {"reason", tolerance.reason}};
     }
     nlohmann::ordered_json curves = nlohmann::ordered_json::array();
     for (const Curve& curve : evaluation.curves) {
@@ -175,8 +175,7 @@ Baseline read_baseline(const std::filesystem::path& path) {
         baseline.height = json.at("height");
         baseline.frames = frames_of(json);
         baseline.bounces = bounces_of(json);
-        baseline.tolerances =
-            parse_tolerances(json.value("tolerances", nlohmann::json::object()), path);
+        baseline.tolerances = parse_tolerances(json.value("tolerances", nlohmann::json::object()), path);
         for (const auto& curve : json.at("curves")) {
             for (const auto& item : curve.at("points")) {
                 baseline.points.push_back(parse_point(item, curve.at("name"), path));

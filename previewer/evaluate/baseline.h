@@ -42,12 +42,12 @@ struct Baseline {
 // Where a baseline has none of its own.
 [[nodiscard]] const std::map<std::string, Tolerance>& default_tolerances();
 
-// Errors and conditions alone, no times and no machine: small, and the same on every machine that draws the same.
-// Schema "bounce.baseline/1".
+// Errors and conditions alone, no times and no machine: small, and the same on every machine that draws the
+// same. Schema "bounce.baseline/1".
 [[nodiscard]] nlohmann::ordered_json baseline_json(const Evaluation& evaluation);
 
-// Reads what baseline_json() or results_json() wrote. Throws input_error: unreadable, of another schema, an error
-// that is not a number, a tolerance without a reason or one that is negative or of an unknown error.
+// Reads what baseline_json() or results_json() wrote. Throws input_error: unreadable, of another schema, an
+// error that is not a number, a tolerance without a reason or one that is negative or of an unknown error.
 [[nodiscard]] Baseline read_baseline(const std::filesystem::path& path);
 
 struct BaselineReport {
@@ -57,9 +57,9 @@ struct BaselineReport {
     size_t compared = 0;                   // points in both
 };
 
-// Compares relMSE, FLIP and the magnitude of the bias of every point that is in both. A point with a value that is
-// not a number has always become worse. Throws input_error where the two were not made under the same conditions
-// (size, frames, bounces) or have no point in common.
+// Compares relMSE, FLIP and the magnitude of the bias of every point that is in both. A point with a value
+// that is not a number has always become worse. Throws input_error where the two were not made under the same
+// conditions (size, frames, bounces) or have no point in common.
 [[nodiscard]] BaselineReport compare_with_baseline(const Baseline& baseline, const Evaluation& evaluation);
 
 }  // namespace bounce

@@ -13,10 +13,10 @@ namespace bounce {
 [[nodiscard]] ImageAttributes reference_attributes(const Reference& reference, const std::string& scene,
                                                    int bounces, int spp);
 
-// A frame's reference from an image file instead of from Cycles. name: #### stands for the frame's number. Its noise
-// floor and time are what its header says, else NaN and 0. Throws input_error where it cannot be read, where its
-// size, or by its header its frame or bounces, are not those asked for, and where it has values that are not
-// numbers.
+// A frame's reference from an image file instead of from Cycles. name: #### stands for the frame's number.
+// Its noise floor and time are what its header says, else NaN and 0. Throws input_error where it cannot be
+// read, where its size, or by its header its frame or bounces, are not those asked for, and where it has
+// values that are not numbers.
 [[nodiscard]] Reference load_given_reference(const std::string& name, int frame, int width, int height,
                                              int bounces);
 

@@ -122,6 +122,11 @@ std::string spread_text(const CurvePoint& point) {
                        100.0 * (point.seconds_most / point.seconds - 1.0));
 }
 
+// Empty where it is not known.
+std::string if_known(double value) {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
+}
+
 // The row's last columns: empty where there is no time to equal error.
 std::string equal_error_csv(const Evaluation& evaluation, const std::string& curve,
                             const std::string& label) {
@@ -187,16 +192,17 @@ std::string results_csv(const Evaluation& evaluation) {
         "seconds_least,seconds_most,cycles_seconds,ratio,cycles_time\n";
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
-            csv += fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{},{},{:.6g},{:.6g},{}\n",
+            csv += fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{},{},{},{},{}\n",
                                curve.name, point.label, point.seconds, point.relmse, point.flip_ldr,
-                               point.bias, point.pareto, point.own_front, point.seconds_least,
-                               point.seconds_most, equal_error_csv(evaluation, curve.name, point.label));
+                               point.bias, point.pareto, point.own_front, if_known(point.seconds_least),
+                               if_known(point.seconds_most),
+                               equal_error_csv(evaluation, curve.name, point.label));
             for (const FrameError& frame : point.frames) {
                 csv += fmt::format(
-                    "\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},,,{:.6g},{:.6g},,,\n",
+                    "\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},,,{},{},,,\n",
                     curve.name, point.label, frame.frame, frame.seconds, frame.relmse, frame.relmse_exposed,
-                    frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias, frame.seconds_least,
-                    frame.seconds_most);
+                    frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias, if_known(frame.seconds_least),
+                    if_known(frame.seconds_most));
             }
         }
     }

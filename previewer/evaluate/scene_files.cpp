@@ -14,8 +14,8 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-// The JSON text of a .gltf, or of a .glb's first chunk: twelve bytes of header, then length, type and text, numbers
-// little-endian (glTF 2.0, section 4.4).
+// The JSON text of a .gltf, or of a .glb's first chunk: twelve bytes of header, then length, type and text,
+// numbers little-endian (glTF 2.0, section 4.4).
 std::string json_text(const fs::path& gltf) {
     std::ifstream in(gltf, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -89,7 +89,7 @@ void keep_point(const fs::path& folder, const PointKey& key, const PreviewResult
 std::optional<PreviewResult> load_point(const fs::path& folder, const PointKey& key) {
     std::ifstream in(record_path(folder, key));
     const auto record = nlohmann::json::parse(in, nullptr, false);
-    if (!record.is_object() || record.value("schema", "") != k_schema) {
+    if (!record.is_object() || !record.contains("schema") || record["schema"] != k_schema) {
         return std::nullopt;
     }
     try {

@@ -27,18 +27,19 @@ struct PointKey {
 // The name of the point's folder.
 [[nodiscard]] std::string point_name(const PointKey& key);
 
-// Hash of the program and of its shaders: those packed into it, or of $BOUNCE_SHADER_DIR where that is set. Throws
-// input_error where the program cannot be read.
+// Hash of the program and of its shaders: those packed into it, or of $BOUNCE_SHADER_DIR where that is set.
+// Throws input_error where the program cannot be read.
 [[nodiscard]] std::string program_fingerprint(const std::filesystem::path& bounce);
 
-// What times and the last bits of a picture depend on beside the program: processor, system, and the environment
-// variables that choose and configure Mesa's drivers.
+// What times and the last bits of a picture depend on beside the program: processor, system, and the
+// environment variables that choose and configure Mesa's drivers.
 [[nodiscard]] std::string machine_fingerprint();
 
-// A point whose pictures and stats.json run_preview() left in folder / point_name(key). keep_point() adds a record with
-// the hashes of them all, last, so that a half-written or damaged point counts as none; load_point() checks it.
-// keep_point throws output_error.
+// A point whose pictures and stats.json run_preview() left in folder / point_name(key). keep_point() adds a
+// record with the hashes of them all, last, so that a half-written or damaged point counts as none;
+// load_point() checks it. keep_point throws output_error.
 void keep_point(const std::filesystem::path& folder, const PointKey& key, const PreviewResult& result);
-[[nodiscard]] std::optional<PreviewResult> load_point(const std::filesystem::path& folder, const PointKey& key);
+[[nodiscard]] std::optional<PreviewResult> load_point(const std::filesystem::path& folder,
+                                                      const PointKey& key);
 
 }  // namespace bounce

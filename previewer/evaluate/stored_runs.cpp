@@ -17,10 +17,7 @@ namespace fs = std::filesystem;
 
 StoredRuns::StoredRuns(const EvaluateOptions& options, fs::path gltf, const std::string& scene_hash,
                        fs::path scratch)
-    : options_(options),
-      gltf_(std::move(gltf)),
-      scratch_(std::move(scratch)),
-      results_(options.runs.size()) {
+    : options_(options), gltf_(std::move(gltf)), scratch_(std::move(scratch)), results_(options.runs.size()) {
     if (options_.point_folder.empty()) {
         return;
     }
@@ -44,8 +41,8 @@ size_t StoredRuns::missing() const {
 
 PreviewResult StoredRuns::measure(size_t index) const {
     const bool kept = !keys_.empty();
-    const fs::path folder = kept ? options_.point_folder / point_name(keys_[index])
-                                 : scratch_ / fmt::format("run{}", index);
+    const fs::path folder =
+        kept ? options_.point_folder / point_name(keys_[index]) : scratch_ / fmt::format("run{}", index);
     std::error_code code;
     fs::remove_all(folder, code);
     if (code) {

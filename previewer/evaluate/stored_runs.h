@@ -14,8 +14,8 @@ namespace bounce {
 
 struct EvaluateOptions;
 
-// The runs of an evaluation by Bounce: those that an earlier evaluation has kept, where options.resume says so, and the
-// others measured, each kept as soon as it is done.
+// The runs of an evaluation by Bounce: those that an earlier evaluation has kept, where options.resume says
+// so, and the others measured, each kept as soon as it is done.
 class StoredRuns {
   public:
     // gltf: what is rendered; scratch: where pictures go that are not kept. The options must live as long.

@@ -118,7 +118,8 @@ std::string sweep_axis_names() {
 
 std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bounces) {
     if (bounces < 1) {
-        throw usage_error("--sweep needs --bounces 1 or more; without bounced light there is nothing to vary");
+        throw usage_error(
+            "--sweep needs --bounces 1 or more; without bounced light there is nothing to vary");
     }
     const auto named = [&](const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
@@ -132,7 +133,8 @@ std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bo
     }
     if (named("bounces") && bounces < 2) {
         throw usage_error(
-            "--sweep bounces needs --bounces 2 or more: all its points are compared with one reference, which "
+            "--sweep bounces needs --bounces 2 or more: all its points are compared with one reference, "
+            "which "
             "has the most bounces");
     }
     std::vector<PreviewRun> runs;

@@ -11,8 +11,8 @@
 namespace bounce {
 
 struct SweepPoint {
-    // Bounces: as many as the reference has (at most 4), one because the settings have no other, or, from 1 on,
-    // exactly so many and only where the reference has as many.
+    // Bounces: as many as the reference has (at most 4), one because the settings have no other, or, from 1
+    // on, exactly so many and only where the reference has as many.
     static constexpr int k_as_reference = 0;
     static constexpr int k_one = -1;
 
@@ -36,10 +36,10 @@ struct SweepAxis {
 // The axes' names, separated by commas.
 [[nodiscard]] std::string sweep_axis_names();
 
-// The runs of the named axes (or of "all", which leaves out `guard`) against a reference of so many bounces, each axis once. The axis
-// `bounces` compares all its points with that one reference, which has the most. Throws usage_error for an unknown
-// axis, where bounces is 0, and for the axis `bounces` by name where the reference has one bounce; "all" leaves
-// it out then.
+// The runs of the named axes (or of "all", which leaves out `guard`) against a reference of so many bounces,
+// each axis once. The axis `bounces` compares all its points with that one reference, which has the most.
+// Throws usage_error for an unknown axis, where bounces is 0, and for the axis `bounces` by name where the
+// reference has one bounce; "all" leaves it out then.
 [[nodiscard]] std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bounces);
 
 }  // namespace bounce

@@ -11,11 +11,13 @@ namespace bounce {
 std::string front_text(const Evaluation& evaluation) {
     const FrontSummary& front = evaluation.front;
     if (front.compared == 0) {
-        return fmt::format("Bounce's own Pareto front has {} points; none of them has a time to equal error.\n",
-                           front.points);
+        return fmt::format(
+            "Bounce's own Pareto front has {} points; none of them has a time to equal error.\n",
+            front.points);
     }
     return fmt::format(
-        "Bounce's own Pareto front, {} points: Cycles takes {:.3g} times as long to equal error (geometric mean over "
+        "Bounce's own Pareto front, {} points: Cycles takes {:.3g} times as long to equal error (geometric "
+        "mean over "
         "{}; {} extrapolated, {} upper bounds), at worst {:.3g} times ({}, {}).\n",
         front.points, front.geometric_mean_ratio, front.compared, front.extrapolated, front.upper_bounds,
         front.least_ratio, front.least_curve, front.least_label);

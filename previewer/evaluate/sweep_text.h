@@ -8,8 +8,8 @@
 
 namespace bounce {
 
-// For a terminal: the front of Bounce's own points against Cycles in a sentence, and the settings that win within each
-// budget, a line each.
+// For a terminal: the front of Bounce's own points against Cycles in a sentence, and the settings that win
+// within each budget, a line each.
 [[nodiscard]] std::string front_text(const Evaluation& evaluation);
 [[nodiscard]] std::string budgets_text(const Tuning& tuning);
 

@@ -83,14 +83,14 @@ nlohmann::ordered_json tuning_json(const Tuning& tuning) {
                            {"curve", tuned.curve},
                            {"label", tuned.label}});
     }
-    return {{"schema", k_schema},
-            {"scene", tuning.scene},
-            {"width", tuning.width},
-            {"height", tuning.height},
-            {"bounces", tuning.bounces},
-            {"machine",
-             {{"cpu", tuning.cpu}, {"threads", tuning.threads}, {"gl_renderer", tuning.gl_renderer}}},
-            {"budgets", budgets}};
+    return {
+        {"schema", k_schema},
+        {"scene", tuning.scene},
+        {"width", tuning.width},
+        {"height", tuning.height},
+        {"bounces", tuning.bounces},
+        {"machine", {{"cpu", tuning.cpu}, {"threads", tuning.threads}, {"gl_renderer", tuning.gl_renderer}}},
+        {"budgets", budgets}};
 }
 
 Tuning read_tuning(const std::filesystem::path& path) {
@@ -100,9 +100,10 @@ Tuning read_tuning(const std::filesystem::path& path) {
     }
     const auto json = nlohmann::json::parse(in, nullptr, false);
     if (!json.is_object()) {
-        throw input_error(fmt::format("the tuning file {} is not JSON; bounce evaluate --sweep writes one as "
-                                      "tuning.json beside its report",
-                                      path.string()));
+        throw input_error(
+            fmt::format("the tuning file {} is not JSON; bounce evaluate --sweep writes one as "
+                        "tuning.json beside its report",
+                        path.string()));
     }
     const auto schema = json.find("schema");
     if (schema == json.end() || *schema != k_schema) {
@@ -125,8 +126,7 @@ Tuning read_tuning(const std::filesystem::path& path) {
                   [](const auto& a, const auto& b) { return a.budget_ms < b.budget_ms; });
         return tuning;
     } catch (const nlohmann::json::exception& error) {
-        throw input_error(
-            fmt::format("the tuning file {} cannot be used: {}", path.string(), error.what()));
+        throw input_error(fmt::format("the tuning file {} cannot be used: {}", path.string(), error.what()));
     }
 }
 

@@ -14,7 +14,8 @@
 
 namespace bounce {
 
-// Budgets that an evaluation looks for, in milliseconds: a frame at 60 and at 30 a second, and what one waits for.
+// Budgets that an evaluation looks for, in milliseconds: a frame at 60 and at 30 a second, and what one waits
+// for.
 constexpr std::array<double, 6> k_budgets_ms{16, 33, 100, 250, 1000, 10000};
 
 struct TunedSettings {
@@ -38,9 +39,9 @@ struct Tuning {
     std::vector<TunedSettings> budgets;  // rising
 };
 
-// For each budget the point of Bounce's with the smallest relMSE among those that take at most so long; of equal
-// errors the fastest. A budget within which no point lies is left out. Points whose time or error is not a number
-// never win, nor do those without options, which Bounce did not draw.
+// For each budget the point of Bounce's with the smallest relMSE among those that take at most so long; of
+// equal errors the fastest. A budget within which no point lies is left out. Points whose time or error is
+// not a number never win, nor do those without options, which Bounce did not draw.
 [[nodiscard]] std::vector<TunedSettings> budget_winners(const std::vector<Curve>& curves,
                                                         const std::vector<double>& budgets_ms);
 
