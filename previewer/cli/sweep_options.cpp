@@ -77,7 +77,9 @@ void SweepOptions::apply(const CLI::App& command, const std::filesystem::path& o
         }
     }
     if (!baseline.empty()) {
-        (void)read_baseline(baseline);  // before the minutes of rendering
+        // Before the minutes of rendering, not after.
+        require_same_conditions(read_baseline(baseline), {options.scene.filename().string(), options.width,
+                                                          options.height, options.bounces, options.frames});
     }
     if (!save_baseline.empty()) {
         require_writable(save_baseline);

@@ -73,21 +73,6 @@ int bounces_of(const nlohmann::json& json) {
     return json.contains("bounces") ? json["bounces"] : json.at("reference").at("bounces");
 }
 
-void require_same_conditions(const Baseline& baseline, const Evaluation& evaluation) {
-    const auto text = [](int width, int height, const std::vector<int>& frames, int bounces) {
-        return fmt::format("frames {} at {}x{} with {} bounces", fmt::join(frames, ","), width, height,
-                           bounces);
-    };
-    const std::string before = text(baseline.width, baseline.height, baseline.frames, baseline.bounces);
-    const std::string now = text(evaluation.width, evaluation.height, evaluation.frames, evaluation.bounces);
-    if (before != now || baseline.scene != evaluation.scene) {
-        throw input_error(
-            fmt::format("the baseline is of {}, {}, the run of {}, {}; errors of the two cannot "
-                        "be compared",
-                        baseline.scene, before, evaluation.scene, now));
-    }
-}
-
 void compare_point(const Baseline& baseline, const BaselinePoint& before, const CurvePoint& now,
                    std::vector<std::string>& regressions) {
     for (const NamedError& error : k_errors) {
@@ -169,12 +154,12 @@ Baseline read_baseline(const std::filesystem::path& path) {
     }
     try {
         Baseline baseline;
-        baseline.scene = json.at("scene");
+        baseline.conditions.scene = json.at("scene");
         baseline.scene_sha256 = json.value("scene_sha256", "");
-        baseline.width = json.at("width");
-        baseline.height = json.at("height");
-        baseline.frames = frames_of(json);
-        baseline.bounces = bounces_of(json);
+        baseline.conditions.width = json.at("width");
+        baseline.conditions.height = json.at("height");
+        baseline.conditions.frames = frames_of(json);
+        baseline.conditions.bounces = bounces_of(json);
         baseline.tolerances = parse_tolerances(json.value("tolerances", nlohmann::json::object()), path);
         for (const auto& curve : json.at("curves")) {
             for (const auto& item : curve.at("points")) {
@@ -187,8 +172,22 @@ Baseline read_baseline(const std::filesystem::path& path) {
     }
 }
 
+void require_same_conditions(const Baseline& baseline, const BaselineConditions& run) {
+    const auto text = [](const BaselineConditions& of) {
+        return fmt::format("{}, frames {} at {}x{} with {} bounces", of.scene, fmt::join(of.frames, ","),
+                           of.width, of.height, of.bounces);
+    };
+    if (text(baseline.conditions) != text(run)) {
+        throw input_error(
+            fmt::format("the baseline is of {}; the run is of {}; errors of the two cannot be "
+                        "compared",
+                        text(baseline.conditions), text(run)));
+    }
+}
+
 BaselineReport compare_with_baseline(const Baseline& baseline, const Evaluation& evaluation) {
-    require_same_conditions(baseline, evaluation);
+    require_same_conditions(baseline, {evaluation.scene, evaluation.width, evaluation.height,
+                                       evaluation.bounces, evaluation.frames});
     BaselineReport report;
     const auto find_before = [&](const std::string& curve, const std::string& label) {
         return std::find_if(baseline.points.begin(), baseline.points.end(), [&](const BaselinePoint& point) {

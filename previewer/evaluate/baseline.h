@@ -28,13 +28,18 @@ struct BaselinePoint {
     double bias = 0.0;
 };
 
-struct Baseline {
-    std::string scene;
-    std::string scene_sha256;
+// What has to be the same for two runs' errors to be comparable.
+struct BaselineConditions {
+    std::string scene;  // file name
     int width = 0;
     int height = 0;
     int bounces = 1;
     std::vector<int> frames;
+};
+
+struct Baseline {
+    BaselineConditions conditions;
+    std::string scene_sha256;
     std::map<std::string, Tolerance> tolerances;  // of relmse, flip_ldr and bias, each of them
     std::vector<BaselinePoint> points;
 };
@@ -49,6 +54,10 @@ struct Baseline {
 // Reads what baseline_json() or results_json() wrote. Throws input_error: unreadable, of another schema, an
 // error that is not a number, a tolerance without a reason or one that is negative or of an unknown error.
 [[nodiscard]] Baseline read_baseline(const std::filesystem::path& path);
+
+// Throws input_error where the run has other conditions than the baseline: to be known before anything is
+// rendered.
+void require_same_conditions(const Baseline& baseline, const BaselineConditions& run);
 
 struct BaselineReport {
     std::vector<std::string> regressions;  // a sentence each

@@ -100,7 +100,10 @@ const std::vector<SweepAxis>& sweep_axes() {
           {"rsm", {"--technique", "rsm", "--rsm-samples", "112"}, SweepPoint::k_one},
           {"disks", {"--vpls", "64"}},
           {"none", {"--vpls", "64", "--visibility", "none"}},
-          {"shadow-maps", {"--vpls", "16", "--visibility", "shadow-maps", "--ism-size", "32"}},
+          // One bounce: a map a light is drawn from triangles, and those of further bounces are many.
+          {"shadow-maps",
+           {"--vpls", "16", "--visibility", "shadow-maps", "--ism-size", "32"},
+           SweepPoint::k_one},
           {"compute, filled", {"--vpls", "64", "--splat", "compute", "--pull-push", "fill"}},
           {"points, 2008 pull-push", {"--vpls", "64", "--splat", "points", "--pull-push", "paper"}}},
          false},

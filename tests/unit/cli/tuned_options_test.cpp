@@ -31,7 +31,8 @@ class TunedOptionsTest : public testing::Test {
     [[nodiscard]] std::string path() const { return (folder_ / "tuning.json").string(); }
 
     // As `bounce render` would take the words, with a budget and the file.
-    [[nodiscard]] RenderOptions render(std::vector<std::string> words, const std::string& budget = "40") const {
+    [[nodiscard]] RenderOptions render(std::vector<std::string> words,
+                                       const std::string& budget = "40") const {
         CLI::App app;
         RenderOptions typed;
         std::string output;
@@ -66,7 +67,8 @@ TEST_F(TunedOptionsTest, TakesTheFilesSettings) {
 
 TEST_F(TunedOptionsTest, WhatWasTypedCounts) {
     write({"--vpls", "64", "--near-field", "off"});
-    const RenderOptions options = render({"--preset", "auto", "--vpls", "512", "--near-field", "on", "--glossy", "off"});
+    const RenderOptions options =
+        render({"--preset", "auto", "--vpls", "512", "--near-field", "on", "--glossy", "off"});
     EXPECT_EQ(options.vpls, 512);
     EXPECT_EQ(options.near_field, true);
     EXPECT_EQ(options.glossy, false);
@@ -102,10 +104,20 @@ TEST_F(TunedOptionsTest, RefusesWhatTheFileCannotGive) {
     EXPECT_EQ(refusal({}).first, ExitCode::done);
     EXPECT_THAT(refusal({}, "32").second, AllOf(HasSubstr("for 32 ms"), HasSubstr("least budget is 33 ms")));
     EXPECT_EQ(refusal({"--preset", "ism2008"}).first, ExitCode::usage);
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--vpl-count", "64"}, {"-x"}, {"--size", "8x4"}, {"--camera", "Side"}, {"--show", "vpls"},
-             {"--tuning", "other.json"}, {"--help"}, {"64"}, {"--vpls"}, {"--vpls", "many"}, {"--vpls", "0"},
-             {"--splat", "squares"}, {"--technique", "direct", "--vpls", "64"}}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--vpl-count", "64"},
+                                               {"-x"},
+                                               {"--size", "8x4"},
+                                               {"--camera", "Side"},
+                                               {"--show", "vpls"},
+                                               {"--tuning", "other.json"},
+                                               {"--help"},
+                                               {"64"},
+                                               {"--vpls"},
+                                               {"--vpls", "many"},
+                                               {"--vpls", "0"},
+                                               {"--splat", "squares"},
+                                               {"--technique", "direct", "--vpls", "64"}}) {
         write(options);
         const auto [code, sentence] = refusal({});
         EXPECT_EQ(code, ExitCode::input_refused) << options[0] << ": " << sentence;

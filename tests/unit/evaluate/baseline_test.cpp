@@ -107,7 +107,8 @@ TEST_F(BaselineTest, NotANumberIsAlwaysWorse) {
                 ElementsAre(HasSubstr("relmse is nan")));
     Evaluation broken = run({point("64", 0.02, 0.1, 0.0)});
     broken.curves[0].points[0].frames[0].not_finite = 3;
-    EXPECT_THAT(compare_with_baseline(baseline, broken).regressions, ElementsAre(HasSubstr("3 values are NaN")));
+    EXPECT_THAT(compare_with_baseline(baseline, broken).regressions,
+                ElementsAre(HasSubstr("3 values are NaN")));
 }
 
 TEST_F(BaselineTest, NamesPointsThatAreInOneAlone) {

@@ -35,7 +35,8 @@ TEST(GivenReference, TellsWhatItsHeaderSays) {
     reference.image = Image(4, 2);
     reference.noise_floor = 1.25e-5;
     reference.seconds = 12.5;
-    write_image(folder / "ref.0024.exr", reference.image, reference_attributes(reference, "room.blend", 2, 512));
+    write_image(folder / "ref.0024.exr", reference.image,
+                reference_attributes(reference, "room.blend", 2, 512));
     const std::string name = (folder / "ref.####.exr").string();
     const Reference read = load_given_reference(name, 24, 4, 2, 2);
     EXPECT_EQ(read.frame, 24);
@@ -46,7 +47,8 @@ TEST(GivenReference, TellsWhatItsHeaderSays) {
 
     EXPECT_THAT(refusal(name, 24, 8, 2, 2), HasSubstr("is 4x2, the frames are 8x2"));
     EXPECT_THAT(refusal(name, 24, 4, 2, 1), HasSubstr("has 2 bounces"));
-    EXPECT_THAT(refusal((folder / "ref.0024.exr").string(), 1, 4, 2, 2), HasSubstr("is of frame 24, not of frame 1"));
+    EXPECT_THAT(refusal((folder / "ref.0024.exr").string(), 1, 4, 2, 2),
+                HasSubstr("is of frame 24, not of frame 1"));
     EXPECT_THAT(refusal(name, 1, 4, 2, 2), HasSubstr("no such file"));
 }
 

@@ -26,9 +26,9 @@ class StoredPointTest : public testing::Test {
     // A point as a run leaves it.
     void store() {
         test::write_constant(folder_ / "picture.exr", 0.6F, 8, 4);
-        const PreviewResult result =
-            run_preview(test::fake_bounce(folder_.path()), "scene.glb", {"VPLs", "64", k_key.render_arguments},
-                        k_key.frames, 8, 4, 3, points_ / point_name(k_key));
+        const PreviewResult result = run_preview(test::fake_bounce(folder_.path()), "scene.glb",
+                                                 {"VPLs", "64", k_key.render_arguments}, k_key.frames, 8, 4,
+                                                 3, points_ / point_name(k_key));
         keep_point(points_, k_key, result);
     }
     [[nodiscard]] fs::path file(const std::string& name) const { return points_ / point_name(k_key) / name; }
@@ -118,8 +118,9 @@ TEST(MachineFingerprint, HoldsWhatChoosesTheDriver) {
 
 TEST(GltfExternalFiles, OfBothKindsOfFile) {
     const TemporaryFolder folder;
-    const std::string json = R"({"buffers":[{"uri":"a%20b.bin"},{"byteLength":3}],)"
-                             R"("images":[{"uri":"data:image/png;base64,"},{"uri":"t.png"},{"bufferView":0}]})";
+    const std::string json =
+        R"({"buffers":[{"uri":"a%20b.bin"},{"byteLength":3}],)"
+        R"("images":[{"uri":"data:image/png;base64,"},{"uri":"t.png"},{"bufferView":0}]})";
     std::ofstream(folder / "scene.gltf") << json;
     std::string header = "glTF";
     for (const size_t number : {size_t{2}, 20 + json.size(), json.size(), size_t{0x4E4F534A}}) {

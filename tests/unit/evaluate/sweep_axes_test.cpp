@@ -68,7 +68,8 @@ TEST(SweepRuns, AllIsEveryAxisButTheGuard) {
 
 TEST(SweepRuns, BouncesFollowTheReferenceWhereTheSettingsHaveThem) {
     for (const PreviewRun& run : sweep_runs({"presets"}, 3)) {
-        const bool further = std::count(run.render_arguments.begin(), run.render_arguments.end(), "--bounces") == 1;
+        const bool further =
+            std::count(run.render_arguments.begin(), run.render_arguments.end(), "--bounces") == 1;
         EXPECT_EQ(further, run.label != "rsm2005") << run.label;
         EXPECT_EQ(further, run.render_arguments.back() == "3") << run.label;
     }

@@ -57,11 +57,15 @@ TEST(BudgetWinners, NotANumberAndOtherEnginesNeverWin) {
 }
 
 Tuning example() {
-    return {"cornell.blend", 640,
-            360,             2,
-            "A processor",   2,
-            "A driver",      {{33, 0.03, 0.1, 0.2, -0.02, "VPLs", "64 VPLs", {"--vpls", "64"}},
-                              {250, 0.2, 0.01, 0.1, 0.0, "Presets", "auto", {"--preset", "auto", "--bounces", "2"}}}};
+    return {"cornell.blend",
+            640,
+            360,
+            2,
+            "A processor",
+            2,
+            "A driver",
+            {{33, 0.03, 0.1, 0.2, -0.02, "VPLs", "64 VPLs", {"--vpls", "64"}},
+             {250, 0.2, 0.01, 0.1, 0.0, "Presets", "auto", {"--preset", "auto", "--bounces", "2"}}}};
 }
 
 std::string refusal(const std::filesystem::path& path) {
