@@ -42,6 +42,13 @@ void SweepOptions::add_to(CLI::App& command) {
                                 sweep_axis_names()))
         ->delimiter(',')
         ->type_name("NAME,...");
+    command
+        .add_option(
+            "--rounds", rounds,
+            "Times that all points are measured, one after the other; the median is over all rounds, and "
+            "the spread shows what changed on the machine meanwhile")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     command.add_flag("--resume", resume,
                      "Take points that an earlier run with the same inputs has left in the output folder");
     command.add_option(
@@ -61,6 +68,7 @@ void SweepOptions::apply(const CLI::App& command, const std::filesystem::path& o
     }
     options.point_folder = output / "points";
     options.resume = resume;
+    options.rounds = rounds;
     if (!reference.empty()) {
         if (command.count("--reference-spp") > 0) {
             throw usage_error("--reference-spp has no effect with --reference, which is not rendered");

@@ -16,6 +16,7 @@ namespace bounce::cli {
 
 struct SweepOptions {
     std::vector<std::string> axes;
+    int rounds = 1;
     bool resume = false;
     std::string reference;
     std::filesystem::path baseline;

@@ -33,6 +33,9 @@ struct EvaluateOptions {
     // Image files for the reference, #### for the frame's number; empty: Cycles renders it. With it and no
     // cycles_spp Blender is not needed.
     std::string given_reference;
+    // How often all runs are measured, one after the other: what changes on the machine meanwhile shows in
+    // the spread.
+    int rounds = 1;
     std::filesystem::path point_folder;  // measured runs are kept here; empty: nowhere
     bool resume = false;                 // runs that are kept there are not measured again
 };

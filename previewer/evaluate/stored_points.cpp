@@ -40,10 +40,10 @@ std::vector<std::string> files_of(const PreviewResult& result) {
 }  // namespace
 
 std::string point_name(const PointKey& key) {
-    return sha256_of_text(fmt::format("{}\n{}\n{}\n{}\nframes {}\n{}x{}\nrepeat {}\n{}\n", k_schema,
+    return sha256_of_text(fmt::format("{}\n{}\n{}\n{}\nframes {}\n{}x{}\nrepeat {}\nround {}\n{}\n", k_schema,
                                       key.scene_hash, key.program_hash, key.machine,
                                       fmt::join(key.frames, ","), key.width, key.height, key.repeat,
-                                      fmt::join(key.render_arguments, "\n")))
+                                      key.round, fmt::join(key.render_arguments, "\n")))
         .substr(0, 32);
 }
 

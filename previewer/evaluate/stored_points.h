@@ -21,6 +21,7 @@ struct PointKey {
     int width = 0;
     int height = 0;
     int repeat = 1;
+    int round = 0;
     std::vector<std::string> render_arguments;
 };
 

@@ -30,7 +30,9 @@ class StoredRuns {
     [[nodiscard]] std::vector<PreviewResult> results(const std::function<void(const std::string&)>& on_run);
 
   private:
+    // One run in one round; its place among all is round * runs + run.
     [[nodiscard]] PreviewResult measure(size_t index) const;
+    [[nodiscard]] const PreviewRun& run_at(size_t index) const;
 
     const EvaluateOptions& options_;
     std::filesystem::path gltf_;
@@ -38,6 +40,11 @@ class StoredRuns {
     std::vector<PointKey> keys_;  // empty where nothing is kept
     std::vector<std::optional<PreviewResult>> results_;
 };
+
+// One run measured in several rounds: all times together and their median; pictures, start-up and driver of
+// the first. Needs at least one. Says on stderr where a round's picture has other bytes, because then the
+// renderer did not repeat itself.
+[[nodiscard]] PreviewResult merge_rounds(const std::vector<PreviewResult>& rounds, const std::string& run);
 
 // "40 s", "3 min", "1 h 20 min": rounded for people.
 [[nodiscard]] std::string rough_time(double seconds);

@@ -117,6 +117,15 @@ TEST_F(EvaluateTest, SpreadAndOptionsOfEachPoint) {
     EXPECT_TRUE(result.curves[0].points[0].options.empty()) << "Cycles has none";
 }
 
+TEST_F(EvaluateTest, EachRoundMeasuresEveryRun) {
+    options_.rounds = 2;
+    const Evaluation result = evaluate(options_);
+    EXPECT_EQ(calls("bounce_calls"), 6);
+    ASSERT_EQ(result.curves.size(), 3U);
+    EXPECT_EQ(result.curves[2].points.size(), 2U);
+    EXPECT_DOUBLE_EQ(result.curves[1].points[0].seconds, 0.020);
+}
+
 TEST_F(EvaluateTest, AGivenReferenceNeedsNoBlender) {
     test::write_constant(folder_ / "ref.0001.exr", 0.5F, 8, 4);
     test::write_constant(folder_ / "ref.0024.exr", 0.6F, 8, 4);

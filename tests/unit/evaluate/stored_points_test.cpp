@@ -19,7 +19,7 @@ namespace {
 using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
-const PointKey k_key{"scene", "program", "machine", {1, 24}, 8, 4, 3, {"--vpls", "64"}};
+const PointKey k_key{"scene", "program", "machine", {1, 24}, 8, 4, 3, 0, {"--vpls", "64"}};
 
 class StoredPointTest : public testing::Test {
   protected:
@@ -87,9 +87,10 @@ TEST(PointName, EveryInputCounts) {
     add([](PointKey& key) { key.width = 9; });
     add([](PointKey& key) { key.height = 5; });
     add([](PointKey& key) { key.repeat = 5; });
+    add([](PointKey& key) { key.round = 1; });
     add([](PointKey& key) { key.render_arguments = {"--vpls", "128"}; });
     add([](PointKey& key) { key.render_arguments = {"--vpls 64"}; });
-    EXPECT_EQ(names.size(), 10U);
+    EXPECT_EQ(names.size(), 11U);
 }
 
 TEST(ProgramFingerprint, ChangesWithTheProgramAndItsShaders) {
@@ -138,6 +139,29 @@ TEST(GltfExternalFiles, OfBothKindsOfFile) {
     const std::string before = sha256_of_gltf(folder / "scene.glb");
     std::ofstream(folder / "t.png") << "pixels";
     EXPECT_NE(sha256_of_gltf(folder / "scene.glb"), before);
+}
+
+TEST(MergeRounds, MedianAndSpreadAreOfAllRounds) {
+    const TemporaryFolder folder;
+    test::write_constant(folder / "a.exr", 0.5F, 8, 4);
+    test::write_constant(folder / "b.exr", 0.6F, 8, 4);
+    const auto round = [&](const char* image, std::vector<double> seconds) {
+        PreviewResult result;
+        result.frames = {{7, seconds.front(), folder / image, seconds}};
+        result.startup_seconds = seconds.front();
+        return result;
+    };
+    testing::internal::CaptureStderr();
+    const PreviewResult merged =
+        merge_rounds({round("a.exr", {1, 2, 9}), round("a.exr", {4, 5, 6})}, "VPLs, 64");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    ASSERT_EQ(merged.frames.size(), 1U);
+    EXPECT_EQ(merged.frames[0].all_seconds, (std::vector<double>{1, 2, 9, 4, 5, 6}));
+    EXPECT_EQ(merged.frames[0].seconds, 4.5);
+    EXPECT_EQ(merged.startup_seconds, 1);
+    testing::internal::CaptureStderr();
+    (void)merge_rounds({round("a.exr", {1}), round("b.exr", {1})}, "VPLs, 64");
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("VPLs, 64: frame 7"), std::string::npos);
 }
 
 TEST(RoughTime, IsForPeople) {
