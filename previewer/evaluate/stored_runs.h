@@ -42,8 +42,8 @@ class StoredRuns {
 };
 
 // One run measured in several rounds: all times together and their median; pictures, start-up and driver of
-// the first. Needs at least one. Says on stderr where a round's picture has other bytes, because then the
-// renderer did not repeat itself.
+// the first. Needs at least one. Says on stderr where a pixel differs in a bit between rounds, because then
+// the renderer did not repeat itself. Throws input_error where a picture cannot be read.
 [[nodiscard]] PreviewResult merge_rounds(const std::vector<PreviewResult>& rounds, const std::string& run);
 
 // "40 s", "3 min", "1 h 20 min": rounded for people.

@@ -145,6 +145,7 @@ TEST(MergeRounds, MedianAndSpreadAreOfAllRounds) {
     const TemporaryFolder folder;
     test::write_constant(folder / "a.exr", 0.5F, 8, 4);
     test::write_constant(folder / "b.exr", 0.6F, 8, 4);
+    write_image(folder / "a2.exr", read_image(folder / "a.exr"), {{"bounce:frame", "another header"}});
     const auto round = [&](const char* image, std::vector<double> seconds) {
         PreviewResult result;
         result.frames = {{7, seconds.front(), folder / image, seconds}};
@@ -153,7 +154,7 @@ TEST(MergeRounds, MedianAndSpreadAreOfAllRounds) {
     };
     testing::internal::CaptureStderr();
     const PreviewResult merged =
-        merge_rounds({round("a.exr", {1, 2, 9}), round("a.exr", {4, 5, 6})}, "VPLs, 64");
+        merge_rounds({round("a.exr", {1, 2, 9}), round("a2.exr", {4, 5, 6})}, "VPLs, 64");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     ASSERT_EQ(merged.frames.size(), 1U);
     EXPECT_EQ(merged.frames[0].all_seconds, (std::vector<double>{1, 2, 9, 4, 5, 6}));
