@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "cli/scene_source.h"
+#include "cli/sweep_options.h"
 #include "core/atomic_file.h"
 #include "core/process.h"
 #include "evaluate/evaluation.h"
@@ -25,6 +26,7 @@ struct EvaluateArguments {
     std::string size = "640x360";
     std::vector<int> cycles_spp{1, 4, 16, 64};
     std::filesystem::path output;
+    SweepOptions sweep;
 };
 
 // Each number once; a frame or a point is rendered once however often it is named.
@@ -33,7 +35,7 @@ std::vector<int> rising(const std::vector<int>& numbers) {
     return {sorted.begin(), sorted.end()};
 }
 
-ExitCode run_evaluate(EvaluateArguments arguments) {
+ExitCode run_evaluate(const CLI::App& command, EvaluateArguments arguments) {
     EvaluateOptions& options = arguments.options;
     options.frames = rising(parse_frames(arguments.frames));
     options.cycles_spp = rising(arguments.cycles_spp);
@@ -45,12 +47,13 @@ ExitCode run_evaluate(EvaluateArguments arguments) {
     options.bounce = executable_path();
     options.runs = default_preview_runs(options.bounces);
     options.command = this_command();
+    arguments.sweep.apply(command, arguments.output, options);
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");
     const Evaluation evaluation = evaluate(options);
     write_report(evaluation, arguments.output);
     fmt::print("{}\nreport: {}\n", results_table(evaluation), (arguments.output / "index.html").string());
-    return ExitCode::done;
+    return arguments.sweep.finish(evaluation, arguments.output);
 }
 
 }  // namespace
@@ -82,8 +85,11 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--repeat", options.repeat, "Renders of each frame by Bounce; their median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    arguments->sweep.add_to(*command);
     add_scene_source_options(*command, options.source);
-    command->callback([arguments, &run] { run = [arguments] { return run_evaluate(*arguments); }; });
+    command->callback([command, arguments, &run] {
+        run = [command, arguments] { return run_evaluate(*command, *arguments); };
+    });
 }
 
 }  // namespace bounce::cli

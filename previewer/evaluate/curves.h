@@ -3,6 +3,7 @@
 // Error against run time as plain data, and what follows from it. No files, no processes.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct FrameError {
     double psnr_db = 0.0;
     double bias = 0.0;
     size_t not_finite = 0;
+    // Fastest and slowest of the repeated renders; NaN where only one time is known.
+    double seconds_least = std::numeric_limits<double>::quiet_NaN();
+    double seconds_most = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One way of rendering: means over its frames.
@@ -33,6 +37,11 @@ struct CurvePoint {
     double bias = 0.0;
     bool pareto = false;
     std::vector<FrameError> frames;
+    // Means of the frames' least and most; NaN where not known.
+    double seconds_least = std::numeric_limits<double>::quiet_NaN();
+    double seconds_most = std::numeric_limits<double>::quiet_NaN();
+    std::vector<std::string> options;  // of `bounce render`; empty where Bounce did not draw the point
+    bool own_front = false;            // on the front of Bounce's own points
 };
 
 struct Curve {
@@ -48,7 +57,7 @@ struct Curve {
 // whose time or error is not a number is never on the front.
 [[nodiscard]] std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& seconds_and_error);
 
-// Sets CurvePoint::pareto over all curves together, by relMSE.
+// Sets CurvePoint::pareto over all curves together and own_front over the points that Bounce drew, by relMSE.
 void mark_pareto(std::vector<Curve>& curves);
 
 enum class EqualErrorKind {
@@ -80,5 +89,22 @@ struct Speedup {
 
 // Every point of the other curves against the ladder of the reference engine.
 [[nodiscard]] std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves);
+
+// One scene in a line: the front of Bounce's own points against Cycles. Bounce's own, because on the common
+// front only those points remain that Cycles does not beat, which would flatter.
+struct FrontSummary {
+    size_t points = 0;        // on the front
+    size_t compared = 0;      // of these, with a time to equal error
+    size_t extrapolated = 0;  // of the compared: beyond Cycles' most exact point
+    size_t upper_bounds =
+        0;  // of the compared: Cycles' fastest is already as exact, the ratio is at most this
+    double geometric_mean_ratio = 0.0;  // Cycles' time over Bounce's; NaN where none is compared
+    double least_ratio = 0.0;           // NaN as well
+    std::string least_curve, least_label;
+};
+
+// Needs mark_pareto() before.
+[[nodiscard]] FrontSummary summarize_front(const std::vector<Curve>& curves,
+                                           const std::vector<Speedup>& speedups);
 
 }  // namespace bounce

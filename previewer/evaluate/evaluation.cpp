@@ -13,8 +13,11 @@
 #include "core/log.h"
 #include "core/progress.h"
 #include "evaluate/cache.h"
+#include "evaluate/given_reference.h"
+#include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
+#include "evaluate/stored_runs.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 
@@ -36,8 +39,17 @@ FrameError measure(int frame, double seconds, const Image& image, const Image& r
         log::warning("frame {}: {} values are NaN and {} infinite, so its errors are not numbers", frame,
                      metrics.nan, metrics.inf);
     }
-    return {frame,        seconds,         metrics.relmse, metrics.relmse_exposed,   metrics.flip_ldr,
-            metrics.ssim, metrics.psnr_db, metrics.bias,   metrics.nan + metrics.inf};
+    FrameError error;
+    error.frame = frame;
+    error.seconds = seconds;
+    error.relmse = metrics.relmse;
+    error.relmse_exposed = metrics.relmse_exposed;
+    error.flip_ldr = metrics.flip_ldr;
+    error.ssim = metrics.ssim;
+    error.psnr_db = metrics.psnr_db;
+    error.bias = metrics.bias;
+    error.not_finite = metrics.nan + metrics.inf;
+    return error;
 }
 
 class Evaluator {
@@ -45,9 +57,12 @@ class Evaluator {
     explicit Evaluator(const EvaluateOptions& options)
         : options_(options),
           gltf_(resolve_scene(options.scene, options.source).gltf),
-          blender_(find_blender(options.source.blender)),
           scene_hash_(sha256_of_file(options.scene)) {
-        result_.blender = blender_version(blender_);
+        result_.scene_sha256 = sha256_of_gltf(gltf_);
+        if (needs_cycles()) {
+            blender_ = find_blender(options.source.blender);
+            result_.blender = blender_version(blender_);
+        }
         load_references();
     }
 
@@ -55,16 +70,14 @@ class Evaluator {
         const auto missing = static_cast<size_t>(std::count_if(
             references_.begin(), references_.end(), [](const auto& item) { return !item.second; }));
         const size_t ladder = options_.cycles_spp.size() * options_.frames.size();
-        Progress progress("evaluate", static_cast<int>(options_.runs.size() + 2 * missing + ladder));
+        StoredRuns runs(options_, gltf_, result_.scene_sha256, scratch_.path());
+        Progress progress("evaluate", static_cast<int>(runs.missing() + 2 * missing + ladder));
         // The quick half first: what is wrong with it shows before Cycles starts its minutes.
-        for (const PreviewRun& run : options_.runs) {
-            previews_.push_back(run_preview(options_.bounce, gltf_, run, options_.frames, options_.width,
-                                            options_.height, options_.repeat,
-                                            scratch_ / fmt::format("run{}", previews_.size())));
-            progress.step(fmt::format("{}, {}: {:.3f} s a frame", run.name, run.label,
-                                      previews_.back().frames.front().seconds));
+        previews_ = runs.results([&](const std::string& note) { progress.step(note); });
+        if (needs_cycles()) {
+            render_with_cycles(progress);
         }
-        render_with_cycles(progress);
+        collect_references();
         measure_cycles();
         measure_previews();
         describe();
@@ -72,6 +85,10 @@ class Evaluator {
     }
 
   private:
+    [[nodiscard]] bool needs_cycles() const {
+        return options_.given_reference.empty() || !options_.cycles_spp.empty();
+    }
+
     [[nodiscard]] ReferenceKey key_of(int frame) const {
         return {
             scene_hash_,      frame,           options_.width,       options_.height, options_.reference_spp,
@@ -80,7 +97,10 @@ class Evaluator {
 
     void load_references() {
         for (const int frame : options_.frames) {
-            references_[frame] = load_reference(cache_folder() / "references", key_of(frame));
+            references_[frame] = options_.given_reference.empty()
+                                     ? load_reference(cache_folder() / "references", key_of(frame))
+                                     : load_given_reference(options_.given_reference, frame, options_.width,
+                                                            options_.height, options_.bounces);
         }
     }
 
@@ -108,6 +128,9 @@ class Evaluator {
             progress.step(
                 fmt::format("Cycles, frame {}, {} spp: {:.2f} s", render.frame, render.spp, render.seconds));
         });
+    }
+
+    void collect_references() {
         for (const int frame : options_.frames) {
             if (!references_[frame]) {
                 references_[frame] = reference_from_halves(frame);
@@ -139,6 +162,9 @@ class Evaluator {
     }
 
     void measure_cycles() {
+        if (options_.cycles_spp.empty()) {
+            return;
+        }
         Curve curve{"Cycles", true, {}};
         for (const int spp : options_.cycles_spp) {
             std::vector<FrameError> frames;
@@ -165,16 +191,24 @@ class Evaluator {
             for (const PreviewFrame& frame : previews_[i].frames) {
                 Image image = read_image(frame.image);
                 frames.push_back(measure(frame.frame, frame.seconds, image, references_[frame.frame]->image));
+                if (!frame.all_seconds.empty()) {
+                    const auto [least, most] =
+                        std::minmax_element(frame.all_seconds.begin(), frame.all_seconds.end());
+                    frames.back().seconds_least = *least;
+                    frames.back().seconds_most = *most;
+                }
                 result_.pictures.push_back({run.name, run.label, frame.frame, std::move(image)});
             }
-            if (result_.curves.back().name != run.name) {
+            if (result_.curves.empty() || result_.curves.back().name != run.name) {
                 result_.curves.push_back({run.name, false, {}});
             }
             result_.curves.back().points.push_back(make_point(run.label, std::move(frames)));
             result_.curves.back().points.back().startup_seconds = previews_[i].startup_seconds;
+            result_.curves.back().points.back().options = run.render_arguments;
         }
         mark_pareto(result_.curves);
         result_.speedups = speedups_at_equal_error(result_.curves);
+        result_.front = summarize_front(result_.curves, result_.speedups);
     }
 
     void describe() {
@@ -183,7 +217,10 @@ class Evaluator {
         result_.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
         result_.width = options_.width;
         result_.height = options_.height;
-        result_.reference_spp = options_.reference_spp;
+        result_.given_reference = options_.given_reference;
+        result_.reference_spp = options_.given_reference.empty()
+                                    ? options_.reference_spp
+                                    : given_reference_spp(options_.given_reference, options_.frames.front());
         result_.bounces = options_.bounces;
         result_.frames = options_.frames;
         result_.machine = this_machine();

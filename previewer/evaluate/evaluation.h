@@ -30,6 +30,14 @@ struct EvaluateOptions {
     std::filesystem::path bounce;  // the program whose `render` command draws
     std::vector<PreviewRun> runs;
     std::string command;  // as typed, for the report
+    // Image files for the reference, #### for the frame's number; empty: Cycles renders it. With it and no
+    // cycles_spp Blender is not needed.
+    std::string given_reference;
+    // How often all runs are measured, one after the other: what changes on the machine meanwhile shows in
+    // the spread.
+    int rounds = 1;
+    std::filesystem::path point_folder;  // measured runs are kept here; empty: nowhere
+    bool resume = false;                 // runs that are kept there are not measured again
 };
 
 // One frame drawn one way, for the report's pictures.
@@ -41,7 +49,9 @@ struct Picture {
 };
 
 struct Evaluation {
-    std::string scene;  // file name
+    std::string scene;            // file name
+    std::string scene_sha256;     // of what the renderer loads: the .glb, also where a .blend was given
+    std::string given_reference;  // as in the options
     std::string command;
     std::string date;  // UTC, ISO 8601
     int width = 0;
@@ -56,6 +66,7 @@ struct Evaluation {
     std::vector<Reference> references;  // one a frame
     std::vector<Curve> curves;          // Cycles first
     std::vector<Speedup> speedups;
+    FrontSummary front;
     std::vector<Picture> pictures;
 };
 

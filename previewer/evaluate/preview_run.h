@@ -21,8 +21,9 @@ struct PreviewRun {
 
 struct PreviewFrame {
     int frame = 1;
-    double seconds = 0.0;         // median of the repeated renders
-    std::filesystem::path image;  // scene-linear EXR
+    double seconds = 0.0;             // median of the repeated renders
+    std::filesystem::path image;      // scene-linear EXR
+    std::vector<double> all_seconds;  // of the repeated renders, in their order
 };
 
 struct PreviewResult {
@@ -38,5 +39,9 @@ struct PreviewResult {
                                         const std::filesystem::path& scene, const PreviewRun& run,
                                         const std::vector<int>& frames, int width, int height, int repeat,
                                         const std::filesystem::path& folder);
+
+// What run_preview left in folder: its pictures and stats.json; startup_seconds stays 0. Throws
+// nlohmann::json::exception where stats.json is damaged, Error where it tells of other frames.
+[[nodiscard]] PreviewResult read_preview(const std::filesystem::path& folder, const std::vector<int>& frames);
 
 }  // namespace bounce

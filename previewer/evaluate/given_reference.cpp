@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/given_reference.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* k_frame = "bounce:frame";
+constexpr const char* k_bounces = "bounce:bounces";
+constexpr const char* k_noise_floor = "bounce:noise_floor_relmse";
+constexpr const char* k_seconds = "bounce:seconds";
+constexpr const char* k_spp = "bounce:spp";
+
+fs::path path_of(const std::string& name, int frame) {
+    constexpr std::string_view field = "####";
+    const size_t at = name.find(field);
+    return at == std::string::npos ? name
+                                   : std::string(name).replace(at, field.size(), fmt::format("{:04}", frame));
+}
+
+// A number of the header; nothing where it is not there. Throws input_error where it is no number.
+template <typename T>
+std::optional<T> number(const ImageAttributes& attributes, const char* name, const fs::path& path) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) {
+        return std::nullopt;
+    }
+    const std::string& text = found->second;
+    T value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size()) {
+        throw input_error(
+            fmt::format("the reference {} says {} = '{}', which is no number", path.string(), name, text));
+    }
+    return value;
+}
+
+}  // namespace
+
+ImageAttributes reference_attributes(const Reference& reference, const std::string& scene, int bounces,
+                                     int spp) {
+    ImageAttributes attributes{{"bounce:scene", scene},
+                               {k_frame, std::to_string(reference.frame)},
+                               {k_bounces, std::to_string(bounces)},
+                               {k_seconds, fmt::format("{}", reference.seconds)}};
+    if (std::isfinite(reference.noise_floor)) {
+        attributes[k_noise_floor] = fmt::format("{}", reference.noise_floor);
+    }
+    if (spp > 0) {
+        attributes[k_spp] = std::to_string(spp);
+    }
+    return attributes;
+}
+
+Reference load_given_reference(const std::string& name, int frame, int width, int height, int bounces) {
+    const fs::path path = path_of(name, frame);
+    Reference reference;
+    reference.frame = frame;
+    reference.cached = true;
+    reference.image = read_scene_linear(path);
+    if (reference.image.width != width || reference.image.height != height) {
+        throw input_error(fmt::format("the reference {} is {}x{}, the frames are {}x{}; give --size {}x{}",
+                                      path.string(), reference.image.width, reference.image.height, width,
+                                      height, reference.image.width, reference.image.height));
+    }
+    const ImageAttributes header = read_attributes(path);
+    if (const auto of = number<int>(header, k_frame, path); of && *of != frame) {
+        throw input_error(
+            fmt::format("the reference {} is of frame {}, not of frame {}", path.string(), *of, frame));
+    }
+    if (const auto of = number<int>(header, k_bounces, path); of && *of != bounces) {
+        throw input_error(fmt::format("the reference {} has {} bounces of light; give --bounces {}",
+                                      path.string(), *of, *of));
+    }
+    if (!std::all_of(reference.image.rgb.begin(), reference.image.rgb.end(),
+                     [](float value) { return std::isfinite(value); })) {
+        throw input_error(fmt::format("the reference {} has values that are not numbers", path.string()));
+    }
+    reference.noise_floor =
+        number<double>(header, k_noise_floor, path).value_or(std::numeric_limits<double>::quiet_NaN());
+    reference.seconds = number<double>(header, k_seconds, path).value_or(0.0);
+    return reference;
+}
+
+int given_reference_spp(const std::string& name, int frame) {
+    const fs::path path = path_of(name, frame);
+    return number<int>(read_attributes(path), k_spp, path).value_or(0);
+}
+
+}  // namespace bounce
