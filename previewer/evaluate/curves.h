@@ -3,6 +3,7 @@
 // Error against run time as plain data, and what follows from it. No files, no processes.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,9 @@ struct CurvePoint {
     double flip_ldr = 0.0;
     double bias = 0.0;
     bool pareto = false;
+    size_t rss_peak_bytes = 0;  // of the process; 0 where not known
+    size_t gl_peak_bytes = 0;   // of buffers and textures in OpenGL; 0 where not known
+    std::string measured;       // when, where an earlier run has measured it; else empty
     std::vector<FrameError> frames;
 };
 
@@ -39,6 +43,7 @@ struct Curve {
     std::string name;
     bool reference_engine = false;  // the ladder that others are measured against
     std::vector<CurvePoint> points;
+    bool peer = false;  // another engine than Bounce and the reference's
 };
 
 // A point from its frames: arithmetic means. Needs at least one frame.

@@ -9,6 +9,8 @@ namespace bounce::embedded {
 
 [[nodiscard]] std::string_view cycles_render_py();
 [[nodiscard]] std::string_view cycles_import_gltf_py();
+[[nodiscard]] std::string_view eevee_render_py();
+[[nodiscard]] std::string_view f3d_export_py();
 [[nodiscard]] std::string_view report_html();
 [[nodiscard]] std::string_view report_js();
 [[nodiscard]] std::string_view report_css();

@@ -3,18 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <map>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/log.h"
 #include "core/progress.h"
 #include "evaluate/cache.h"
+#include "evaluate/cycles_cache.h"
+#include "evaluate/report.h"
+#include "evaluate/resume.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
+#include "evaluate/startup.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 
@@ -29,6 +31,8 @@ constexpr int k_seed_ladder = 3;
 // Renders of few samples are over in a fraction of a second; the median of three steadies them.
 constexpr int k_quick_spp = 4;
 constexpr int k_quick_repeat = 3;
+// Runs up to which each one's passes are timed: a process more a run.
+constexpr size_t k_most_pass_runs = 16;
 
 FrameError measure(int frame, double seconds, const Image& image, const Image& reference) {
     const Metrics metrics = compare(image, reference, HdrFlip::leave_out);
@@ -44,7 +48,8 @@ class Evaluator {
   public:
     explicit Evaluator(const EvaluateOptions& options)
         : options_(options),
-          gltf_(resolve_scene(options.scene, options.source).gltf),
+          resolved_(resolve_scene(options.scene, options.source)),
+          gltf_(resolved_.gltf),
           blender_(find_blender(options.source.blender)),
           scene_hash_(sha256_of_file(options.scene)) {
         result_.blender = blender_version(blender_);
@@ -57,16 +62,21 @@ class Evaluator {
         const size_t ladder = options_.cycles_spp.size() * options_.frames.size();
         Progress progress("evaluate", static_cast<int>(options_.runs.size() + 2 * missing + ladder));
         // The quick half first: what is wrong with it shows before Cycles starts its minutes.
+        const std::string program = sha256_of_file(options_.bounce) + sha256_of_file(gltf_);
         for (const PreviewRun& run : options_.runs) {
-            previews_.push_back(run_preview(options_.bounce, gltf_, run, options_.frames, options_.width,
-                                            options_.height, options_.repeat,
-                                            scratch_ / fmt::format("run{}", previews_.size())));
+            const fs::path folder = options_.partial.empty() ? scratch_.path() : options_.partial;
+            previews_.push_back(run_or_resume_preview(program, options_.bounce, gltf_, run, options_.frames,
+                                                      options_.width, options_.height, options_.repeat,
+                                                      folder / fmt::format("run{}", previews_.size())));
             progress.step(fmt::format("{}, {}: {:.3f} s a frame", run.name, run.label,
                                       previews_.back().frames.front().seconds));
         }
+        run_peers();
         render_with_cycles(progress);
         measure_cycles();
+        measure_peers();
         measure_previews();
+        measure_pass_times();
         describe();
         return std::move(result_);
     }
@@ -91,9 +101,15 @@ class Evaluator {
         job.height = options_.height;
         job.bounces = options_.bounces;
         const auto add = [&](int frame, int spp, int seed) {
-            job.renders.push_back({frame, spp, seed, spp <= k_quick_spp ? k_quick_repeat : 1,
-                                   scratch_ / fmt::format("cycles_{}_{}_{}.exr", frame, spp, seed), 0.0,
-                                   0.0});
+            job.renders.push_back({frame,
+                                   spp,
+                                   seed,
+                                   spp <= k_quick_spp ? k_quick_repeat : 1,
+                                   scratch_ / fmt::format("cycles_{}_{}_{}.exr", frame, spp, seed),
+                                   0.0,
+                                   0.0,
+                                   0,
+                                   {}});
         };
         for (const int frame : options_.frames) {
             for (const int spp : options_.cycles_spp) {
@@ -104,15 +120,35 @@ class Evaluator {
                 add(frame, options_.reference_spp / 2, k_seed_half2);
             }
         }
-        result_.cycles = run_cycles(job, blender_, [&](const CyclesRender& render) {
-            progress.step(
-                fmt::format("Cycles, frame {}, {} spp: {:.2f} s", render.frame, render.spp, render.seconds));
-        });
+        const RenderCache cache(cache_folder() / "renders", options_.width, options_.height);
+        const auto key = [&](const CyclesRender& render) {
+            return peer_key(peer_job(), render.frame,
+                            fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp,
+                                        render.seed, options_.bounces, render.repeat, cycles_scripts_hash()));
+        };
+        result_.cycles =
+            run_cycles_cached(job, blender_, cache, key, options_.fresh, [&](const CyclesRender& render) {
+                progress.step(fmt::format("Cycles, frame {}, {} spp: {:.2f} s{}", render.frame, render.spp,
+                                          render.seconds,
+                                          render.measured.empty() ? "" : " (from an earlier run)"));
+            });
         for (const int frame : options_.frames) {
             if (!references_[frame]) {
                 references_[frame] = reference_from_halves(frame);
             }
             result_.references.push_back(*references_[frame]);
+            for (const int seed : {k_seed_half1, k_seed_half2}) {
+                // The reference holds them now.
+                cache.remove(key({frame,
+                                  options_.reference_spp / 2,
+                                  seed,
+                                  options_.reference_spp / 2 <= k_quick_spp ? k_quick_repeat : 1,
+                                  {},
+                                  0.0,
+                                  0.0,
+                                  0,
+                                  {}}));
+            }
         }
     }
 
@@ -143,17 +179,23 @@ class Evaluator {
         for (const int spp : options_.cycles_spp) {
             std::vector<FrameError> frames;
             double setup = 0.0;
+            size_t memory = 0;
+            std::string measured;
             const std::string label = fmt::format("{} spp", spp);
             for (const int frame : options_.frames) {
                 const CyclesRender& render = find_render(frame, spp, k_seed_ladder);
                 Image image = read_image(render.output);
                 frames.push_back(measure(frame, render.seconds, image, references_[frame]->image));
+                memory = std::max(memory, render.rss_peak_bytes);
+                measured = render.measured.empty() ? measured : render.measured;
                 setup += render.setup_seconds / static_cast<double>(options_.frames.size());
                 result_.pictures.push_back({curve.name, label, frame, std::move(image)});
             }
             curve.points.push_back(make_point(label, std::move(frames)));
             curve.points.back().setup_seconds = setup;
             curve.points.back().startup_seconds = result_.cycles.startup_seconds;
+            curve.points.back().rss_peak_bytes = memory;
+            curve.points.back().measured = measured;
         }
         result_.curves.push_back(std::move(curve));
     }
@@ -172,15 +214,75 @@ class Evaluator {
             }
             result_.curves.back().points.push_back(make_point(run.label, std::move(frames)));
             result_.curves.back().points.back().startup_seconds = previews_[i].startup_seconds;
+            result_.curves.back().points.back().rss_peak_bytes = previews_[i].rss_peak_bytes;
+            result_.curves.back().points.back().gl_peak_bytes = previews_[i].gl_peak_bytes;
         }
         mark_pareto(result_.curves);
         result_.speedups = speedups_at_equal_error(result_.curves);
     }
 
+    [[nodiscard]] PeerJob peer_job() const {
+        return {options_.scene,  scene_hash_,
+                blender_,        result_.blender,
+                options_.frames, options_.width,
+                options_.height, options_.peer_limit_seconds,
+                options_.fresh,  cache_folder() / "renders"};
+    }
+
+    void run_peers() {
+        for (const std::string& name : options_.peers) {
+            result_.peers.push_back(
+                run_peer(name, peer_job(), [](const std::string& line) { log::info("{}", line); }));
+        }
+    }
+
+    void measure_peers() {
+        for (const PeerResult& peer : result_.peers) {
+            for (const PeerPoint& point : peer.points) {
+                std::vector<FrameError> frames;
+                CurvePoint values;
+                for (const PeerFrame& frame : point.frames) {
+                    const CachedRender& render = frame.render;
+                    frames.push_back(
+                        measure(frame.frame, render.seconds, render.image, references_[frame.frame]->image));
+                    values.startup_seconds = render.startup_seconds;
+                    values.rss_peak_bytes = std::max(values.rss_peak_bytes, render.rss_peak_bytes);
+                    values.measured = frame.cached ? render.date : values.measured;
+                    result_.pictures.push_back({point.curve, point.label, frame.frame, render.image});
+                }
+                if (result_.curves.back().name != point.curve) {
+                    result_.curves.push_back({point.curve, false, {}, true});
+                }
+                CurvePoint measured = make_point(point.label, std::move(frames));
+                measured.startup_seconds = values.startup_seconds;
+                measured.rss_peak_bytes = values.rss_peak_bytes;
+                measured.measured = values.measured;
+                result_.curves.back().points.push_back(std::move(measured));
+            }
+        }
+    }
+
+    // Of all runs, or where they are many of those whose pictures the report shows.
+    void measure_pass_times() {
+        const auto shown = shown_points(result_);
+        for (size_t i = 0; i < options_.runs.size(); ++i) {
+            const PreviewRun& run = options_.runs[i];
+            const bool wanted =
+                options_.runs.size() <= k_most_pass_runs ||
+                std::find(shown.begin(), shown.end(), std::pair{run.name, run.label}) != shown.end();
+            if (wanted) {
+                result_.passes.push_back(measure_passes(options_.bounce, gltf_, run, options_.frames.front(),
+                                                        options_.width, options_.height,
+                                                        scratch_ / fmt::format("passes{}", i)));
+            }
+        }
+    }
+
     void describe() {
+        result_.startups = startups_of(result_, resolved_.export_seconds);
         result_.scene = options_.scene.filename().string();
         result_.command = options_.command;
-        result_.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+        result_.date = utc_now();
         result_.width = options_.width;
         result_.height = options_.height;
         result_.reference_spp = options_.reference_spp;
@@ -196,6 +298,7 @@ class Evaluator {
 
     const EvaluateOptions& options_;
     ScratchFolder scratch_;
+    ResolvedScene resolved_;
     fs::path gltf_;
     fs::path blender_;
     std::string scene_hash_;

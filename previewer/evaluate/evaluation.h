@@ -11,6 +11,8 @@
 #include "evaluate/curves.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/machine.h"
+#include "evaluate/pass_times.h"
+#include "evaluate/peers.h"
 #include "evaluate/preview_run.h"
 #include "evaluate/reference.h"
 #include "image/image.h"
@@ -29,7 +31,21 @@ struct EvaluateOptions {
     SceneSourceOptions source;
     std::filesystem::path bounce;  // the program whose `render` command draws
     std::vector<PreviewRun> runs;
-    std::string command;  // as typed, for the report
+    std::string command;             // as typed, for the report
+    std::vector<std::string> peers;  // of known_peers()
+    double peer_limit_seconds = 60.0;
+    bool fresh = false;  // measure the other engines anew; references are kept all the same
+    std::filesystem::path
+        partial;  // where finished runs wait for a killed evaluation to go on; empty: nowhere
+};
+
+// What comes before the frames that count, of one engine. 0: not known, or there is no such step.
+struct StartUp {
+    std::string engine;
+    double export_seconds = 0.0;
+    double load_seconds = 0.0;
+    double first_render_seconds = 0.0;
+    std::string note;  // what the figures hold
 };
 
 // One frame drawn one way, for the report's pictures.
@@ -57,6 +73,9 @@ struct Evaluation {
     std::vector<Curve> curves;          // Cycles first
     std::vector<Speedup> speedups;
     std::vector<Picture> pictures;
+    std::vector<PeerResult> peers;  // what they were set to, and what is missing; their points are in curves
+    std::vector<PassTimes> passes;
+    std::vector<StartUp> startups;
 };
 
 // Throws input_error where the scene cannot be rendered, Error where a program fails.

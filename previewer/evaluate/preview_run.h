@@ -29,6 +29,8 @@ struct PreviewResult {
     std::vector<PreviewFrame> frames;
     double startup_seconds = 0.0;  // the process's time outside the repeated renders
     std::string gl_vendor, gl_renderer, gl_version;
+    size_t rss_peak_bytes = 0;
+    size_t gl_peak_bytes = 0;
 };
 
 // Renders the frames with the program's own `render` command in a process of its own, and reads its
@@ -38,5 +40,9 @@ struct PreviewResult {
                                         const std::filesystem::path& scene, const PreviewRun& run,
                                         const std::vector<int>& frames, int width, int height, int repeat,
                                         const std::filesystem::path& folder);
+
+// What run_preview left in folder: its pictures and stats.json; startup_seconds stays 0. Throws
+// nlohmann::json::exception where stats.json is damaged, Error where it tells of other frames.
+[[nodiscard]] PreviewResult read_preview(const std::filesystem::path& folder, const std::vector<int>& frames);
 
 }  // namespace bounce
