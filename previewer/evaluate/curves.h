@@ -83,7 +83,7 @@ struct Speedup {
     EqualErrorKind kind = EqualErrorKind::interpolated;
 };
 
-// Every point of the other curves against the ladder of the reference engine.
+// Every point of Bounce's curves against the ladder of the reference engine.
 [[nodiscard]] std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves);
 
 }  // namespace bounce

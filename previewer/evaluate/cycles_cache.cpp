@@ -45,8 +45,8 @@ bool same(const CyclesRender& a, const CyclesRender& b) {
 
 }  // namespace
 
-CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path& blender, const RenderCache& cache,
-                               const CyclesKey& key, bool fresh,
+CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path& blender,
+                               const RenderCache& cache, const CyclesKey& key, bool fresh,
                                const std::function<void(const CyclesRender&)>& on_render) {
     CyclesReport kept;
     std::vector<CyclesRender> done;
@@ -68,7 +68,8 @@ CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path
                 }
                 continue;
             } catch (const json::exception& error) {
-                log::warning("a kept picture of Cycles is rendered again: its record is damaged ({})", error.what());
+                log::warning("a kept picture of Cycles is rendered again: its record is damaged ({})",
+                             error.what());
             }
         }
         missing.renders.push_back(render);
@@ -100,8 +101,8 @@ CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path
     }
     report.renders.clear();
     for (const CyclesRender& wanted : job.renders) {
-        report.renders.push_back(
-            *std::find_if(done.begin(), done.end(), [&](const CyclesRender& item) { return same(item, wanted); }));
+        report.renders.push_back(*std::find_if(done.begin(), done.end(),
+                                               [&](const CyclesRender& item) { return same(item, wanted); }));
     }
     return report;
 }

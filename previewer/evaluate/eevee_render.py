@@ -26,8 +26,8 @@ import bpy
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from cycles_render import SceneError, frame_of, match_picture, open_scene, peak_memory, sentence, tell, timed_render
 
-# The first render compiles the simple shaders, the second one waits for those that compile beside it.
-WARM_UPS = 2
+# The first render compiles shaders. The second is the first of steady state, and with its samples says how time grows.
+WARM_UPS = (1, 4)
 QUICK_SECONDS = 2.0
 QUICK_REPEAT = 3
 
@@ -49,15 +49,25 @@ def match_eevee(scene):
             setattr(scene.eevee, name, False)
 
 
+def expected_seconds(known, samples):
+    """A frame costs a part that is always the same and one that grows with the samples: a line through the two
+    renders with the most samples."""
+    if len(known) < 2:
+        return 0.0
+    (fewer, short), (more, long) = sorted(known.items())[-2:]
+    return long + max(long - short, 0.0) / (more - fewer) * (samples - more)
+
+
 def render_frame(scene, item, limit):
-    last = None
-    for _ in range(WARM_UPS):
-        scene.eevee.taa_render_samples = 1
-        tell("warm_up", frame=item["frame"], seconds=timed_render())
+    known = {}
+    for samples in WARM_UPS:
+        scene.eevee.taa_render_samples = samples
+        seconds = timed_render()
+        tell("warm_up", frame=item["frame"], seconds=seconds)
+    known[samples] = seconds
     for wanted in item["renders"]:
         samples = wanted["samples"]
-        # Time grows with the samples, less a part that does not.
-        expected = 0.0 if last is None else last[1] * samples / last[0]
+        expected = expected_seconds(known, samples)
         if expected > limit:
             tell("skip", frame=item["frame"], samples=samples, expected_seconds=expected)
             continue
@@ -66,7 +76,7 @@ def render_frame(scene, item, limit):
         while times[0] < QUICK_SECONDS and len(times) < QUICK_REPEAT:
             times.append(timed_render())
         seconds = statistics.median(times)
-        last = (samples, seconds)
+        known[samples] = seconds
         bpy.data.images["Render Result"].save_render(wanted["output"], scene=scene)
         tell("render", frame=item["frame"], samples=samples, seconds=seconds, rss_peak_bytes=peak_memory())
 

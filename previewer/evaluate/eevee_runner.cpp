@@ -50,7 +50,8 @@ class EeveeRun {
             json renders = json::array();
             for (size_t i = 0; i < k_samples.size(); ++i) {
                 if (!take_cached(frame, i)) {
-                    renders.push_back({{"samples", k_samples.at(i)}, {"output", output(frame, k_samples.at(i)).string()}});
+                    renders.push_back(
+                        {{"samples", k_samples.at(i)}, {"output", output(frame, k_samples.at(i)).string()}});
                 }
             }
             if (!renders.empty()) {
@@ -119,8 +120,9 @@ class EeveeRun {
         if (blend) {
             command.push_back(fs::absolute(job_.scene).string());
         }
-        command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch_ / "eevee_render.py").string(), "--",
-                                       (scratch_ / "job.json").string()});
+        command.insert(command.end(),
+                       {"--python-exit-code", "1", "-P", (scratch_ / "eevee_render.py").string(), "--",
+                        (scratch_ / "job.json").string()});
         start_ = Clock::now();
         const ProcessResult process = run_process(command, [&](std::string_view line) { read_line(line); });
         if (process.exit_code != 0 || error_) {
@@ -152,7 +154,8 @@ class EeveeRun {
             files_ = event.at("files").get<std::vector<fs::path>>();
             film_exposure_ = event.at("film_exposure");
             if (film_exposure_ != 1.0F) {
-                add_notes({fmt::format("Eevee knows no film exposure: its pictures are multiplied by {}", film_exposure_)});
+                add_notes({fmt::format("Eevee knows no film exposure: its pictures are multiplied by {}",
+                                       film_exposure_)});
             }
         } else if (kind == "warm_up" && first_render_seconds_ == 0.0) {
             first_render_seconds_ = event.at("seconds");
@@ -162,7 +165,8 @@ class EeveeRun {
             const int samples = event.at("samples");
             if (skipped_.insert(samples).second) {
                 result_.left_out.push_back(
-                    fmt::format("Eevee at {} samples is left out: a frame would take about {:.0f} s; --peer-limit allows {:.0f} s",
+                    fmt::format("Eevee at {} samples is left out: a frame would take about {:.0f} s; "
+                                "--peer-limit allows {:.0f} s",
                                 samples, event.at("expected_seconds").get<double>(), job_.limit_seconds));
             }
         } else if (kind == "note") {
@@ -213,9 +217,12 @@ class EeveeRun {
 void run_eevee(const PeerJob& job, const PeerProgress& progress, PeerResult& result) {
     result.name = "Eevee";
     result.settings =
-        "Blender's Eevee as the scene has it set (soft shadows, ambient occlusion, reflections), at 1, 16 and 64 samples; "
-        "bloom, motion blur, depth of field and compositing off. It has no bounced light but from baked light probes, and "
-        "none is baked. Time: renders of a frame after two that are not counted, the median of three below 2 s.";
+        "Blender's Eevee as the scene has it set (soft shadows, ambient occlusion, reflections), at 1, 16 "
+        "and 64 samples; "
+        "bloom, motion blur, depth of field and compositing off. It has no bounced light but from baked "
+        "light probes, and "
+        "none is baked. Time: renders of a frame after two that are not counted, the median of three below 2 "
+        "s.";
     EeveeRun(job, progress, result).run();
 }
 

@@ -28,7 +28,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view k_event_prefix = "BOUNCE ";
-// Frames drawn before the ones that count: shaders are compiled by then. Even, as each press switches something.
+// Frames drawn before the ones that count: shaders are compiled by then. Even, as each press switches
+// something.
 constexpr int k_warm_up = 4;
 // The frames that count take at least about this long together, so that a process's spread hardly shows.
 constexpr double k_measured_seconds = 1.0;
@@ -83,9 +84,10 @@ class F3dRun {
 
   private:
     [[nodiscard]] std::string key(int frame, size_t light) const {
-        return peer_key(job_, frame,
-                        fmt::format("f3d, {}\n{}\n{}", k_lights.at(light).label, version_,
-                                    sha256_of_text(std::string(embedded::f3d_export_py()) + cycles_scripts_hash())));
+        return peer_key(
+            job_, frame,
+            fmt::format("f3d, {}\n{}\n{}", k_lights.at(light).label, version_,
+                        sha256_of_text(std::string(embedded::f3d_export_py()) + cycles_scripts_hash())));
     }
 
     [[nodiscard]] fs::path gltf(int frame, bool lit) const {
@@ -132,8 +134,8 @@ class F3dRun {
         if (blend) {
             command.push_back(fs::absolute(job_.scene).string());
         }
-        command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch_ / "f3d_export.py").string(), "--",
-                                       (scratch_ / "job.json").string()});
+        command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch_ / "f3d_export.py").string(),
+                                       "--", (scratch_ / "job.json").string()});
         const ProcessResult process = run_process(command, [&](std::string_view line) { read_line(line); });
         if (process.exit_code != 0 || error_ || views_.size() != frames.size()) {
             log::debug("{}", process.output);
@@ -169,20 +171,21 @@ class F3dRun {
         const fs::path record = scratch_ / "presses.log";
         write_text_file(record, f3d_presses(presses));
         std::vector<std::string> command = display_;
-        command.insert(command.end(), {f3d_, gltf(frame, lit).string(), "--output=" + picture.string(), "--dry-run",
-                                       fmt::format("--resolution={},{}", job_.width, job_.height),
-                                       "--camera-position=" + comma(view.at("position")),
-                                       "--camera-focal-point=" + comma(view.at("focal_point")),
-                                       "--camera-view-up=" + comma(view.at("view_up")),
-                                       fmt::format("--camera-view-angle={}", view.at("view_angle").get<double>()),
-                                       "--bg-color=" + comma(view.at("background")),
-                                       "--interaction-test-play=" + record.string()});
+        command.insert(
+            command.end(),
+            {f3d_, gltf(frame, lit).string(), "--output=" + picture.string(), "--dry-run",
+             fmt::format("--resolution={},{}", job_.width, job_.height),
+             "--camera-position=" + comma(view.at("position")),
+             "--camera-focal-point=" + comma(view.at("focal_point")),
+             "--camera-view-up=" + comma(view.at("view_up")),
+             fmt::format("--camera-view-angle={}", view.at("view_angle").get<double>()),
+             "--bg-color=" + comma(view.at("background")), "--interaction-test-play=" + record.string()});
         ProcessResult process = run_process(command);
         std::error_code code;
         if (process.exit_code != 0 || !fs::is_regular_file(picture, code)) {
             log::debug("{}", process.output);
-            throw Error(ExitCode::failed, fmt::format("f3d ended with code {} after \"{}\"", process.exit_code,
-                                                      last_line(process.output)));
+            throw Error(ExitCode::failed, fmt::format("f3d ended with code {} after \"{}\"",
+                                                      process.exit_code, last_line(process.output)));
         }
         return process;
     }
@@ -199,8 +202,9 @@ class F3dRun {
         CachedRender render;
         render.image = read_scene_linear(picture);
         if (render.image.width != job_.width || render.image.height != job_.height) {
-            throw Error(ExitCode::failed, fmt::format("f3d drew {} x {} pixels, not {} x {}", render.image.width,
-                                                      render.image.height, job_.width, job_.height));
+            throw Error(ExitCode::failed,
+                        fmt::format("f3d drew {} x {} pixels, not {} x {}", render.image.width,
+                                    render.image.height, job_.width, job_.height));
         }
         render.seconds = (last.seconds - first.seconds) / count;
         if (!(render.seconds > 0.0)) {
@@ -242,9 +246,12 @@ std::string f3d_presses(int count) {
 void run_f3d(const PeerJob& job, const PeerProgress& progress, PeerResult& result) {
     result.name = "f3d";
     result.settings =
-        "f3d, a viewer without bounced light or shadows, from the scene's camera; files by Blender's own exporter. It shows "
-        "a picture for a screen, 8 bits a channel and cut off at white: the sRGB curve is undone before it is compared, and "
-        "what was brighter than white is lost. Its point and spot lights do not fade with distance. Time: a long run of "
+        "f3d, a viewer without bounced light or shadows, from the scene's camera; files by Blender's own "
+        "exporter. It shows "
+        "a picture for a screen, 8 bits a channel and cut off at white: the sRGB curve is undone before it "
+        "is compared, and "
+        "what was brighter than white is lost. Its point and spot lights do not fade with distance. Time: a "
+        "long run of "
         "frames less a short one, over the difference in frames.";
     F3dRun(job, progress, result).run();
 }

@@ -28,8 +28,8 @@ PassTimes pass_times_of(const nlohmann::json& stats) {
     return result;
 }
 
-PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const PreviewRun& run, int frame, int width,
-                         int height, const fs::path& folder) {
+PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const PreviewRun& run, int frame,
+                         int width, int height, const fs::path& folder) {
     fs::create_directories(folder);
     const fs::path stats = folder / "passes.json";
     std::vector<std::string> command{bounce.string(),
@@ -46,9 +46,10 @@ PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const Pr
     command.insert(command.end(), run.render_arguments.begin(), run.render_arguments.end());
     const ProcessResult process = run_process(command);
     if (process.exit_code != 0) {
-        throw Error(ExitCode::failed, fmt::format("{}, {}: the passes could not be timed: bounce render ended with "
-                                                  "code {} after \"{}\"",
-                                                  run.name, run.label, process.exit_code, last_line(process.output)));
+        throw Error(ExitCode::failed,
+                    fmt::format("{}, {}: the passes could not be timed: bounce render ended with "
+                                "code {} after \"{}\"",
+                                run.name, run.label, process.exit_code, last_line(process.output)));
     }
     std::ifstream in(stats);
     try {
@@ -57,8 +58,8 @@ PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const Pr
         result.label = run.label;
         return result;
     } catch (const nlohmann::json::exception& error) {
-        throw Error(ExitCode::failed,
-                    fmt::format("{}, {}: {} cannot be used: {}", run.name, run.label, stats.string(), error.what()));
+        throw Error(ExitCode::failed, fmt::format("{}, {}: {} cannot be used: {}", run.name, run.label,
+                                                  stats.string(), error.what()));
     }
 }
 

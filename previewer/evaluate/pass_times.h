@@ -34,11 +34,11 @@ struct PassTimes {
     std::vector<std::string> approximations;
 };
 
-// Renders one frame once more with the passes timed one by one, in a process of its own: waiting for each pass would
-// slow the frame that counts. Throws Error (failed).
-[[nodiscard]] PassTimes measure_passes(const std::filesystem::path& bounce, const std::filesystem::path& scene,
-                                       const PreviewRun& run, int frame, int width, int height,
-                                       const std::filesystem::path& folder);
+// Renders one frame once more with the passes timed one by one, in a process of its own: waiting for each
+// pass would slow the frame that counts. Throws Error (failed).
+[[nodiscard]] PassTimes measure_passes(const std::filesystem::path& bounce,
+                                       const std::filesystem::path& scene, const PreviewRun& run, int frame,
+                                       int width, int height, const std::filesystem::path& folder);
 
 // From what `bounce render --stats` wrote. Throws nlohmann::json::exception.
 [[nodiscard]] PassTimes pass_times_of(const nlohmann::json& stats);

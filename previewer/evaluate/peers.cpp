@@ -35,7 +35,8 @@ PeerResult run_peer(const std::string& name, const PeerJob& job, const PeerProgr
         result.left_out.push_back(fmt::format("{} is left out: {}", result.name, error.what()));
     }
     // A point is one where all its frames are.
-    std::erase_if(result.points, [&](const PeerPoint& point) { return point.frames.size() != job.frames.size(); });
+    std::erase_if(result.points,
+                  [&](const PeerPoint& point) { return point.frames.size() != job.frames.size(); });
     for (const std::string& line : result.left_out) {
         log::warning("{}", line);
     }
@@ -57,8 +58,8 @@ std::vector<std::string> with_display() {
 
 std::string peer_key(const PeerJob& job, int frame, const std::string& settings) {
     const Machine machine = this_machine();
-    return fmt::format("scene {}\nframe {}\n{}x{}\n{}\n{}, {} threads\n{}\n", job.scene_hash, frame, job.width,
-                       job.height, job.blender_version, machine.cpu, machine.threads, settings);
+    return fmt::format("scene {}\nframe {}\n{}x{}\n{}\n{}, {} threads\n{}\n", job.scene_hash, frame,
+                       job.width, job.height, job.blender_version, machine.cpu, machine.threads, settings);
 }
 
 }  // namespace bounce

@@ -53,12 +53,12 @@ using PeerProgress = std::function<void(const std::string&)>;
 // The peers by name, in the order of the report.
 [[nodiscard]] std::vector<std::string> known_peers();
 
-// Runs one of known_peers(). Nothing about a peer ends the evaluation: a program that is missing or fails is a
-// sentence in left_out, and the points that are whole are there.
+// Runs one of known_peers(). Nothing about a peer ends the evaluation: a program that is missing or fails is
+// a sentence in left_out, and the points that are whole are there.
 [[nodiscard]] PeerResult run_peer(const std::string& name, const PeerJob& job, const PeerProgress& progress);
 
-// The command that gives a program a display: empty where $DISPLAY is set, xvfb-run where it is installed. Throws
-// Error (failed) with a sentence that names the package.
+// The command that gives a program a display: empty where $DISPLAY is set, xvfb-run where it is installed.
+// Throws Error (failed) with a sentence that names the package.
 [[nodiscard]] std::vector<std::string> with_display();
 
 // The text under which a peer's picture is kept: scene, frame, size, machine and what else the peer names.

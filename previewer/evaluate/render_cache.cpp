@@ -102,8 +102,8 @@ void RenderCache::store(const std::string& key, const CachedRender& render,
                                                        {"date", render.date},
                                                        {"notes", render.notes},
                                                        {"engine", render.engine}}
-                                                    .dump(2) +
-                                                "\n");
+                                                .dump(2) +
+                                            "\n");
 }
 
 void RenderCache::store_or_warn(const std::string& key, const CachedRender& render,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of other engines with their times, kept between runs, so that a killed run goes on where it stopped.
+// Pictures of other engines with their times, kept between runs, so that a killed run goes on where it
+// stopped.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +22,14 @@ struct CachedRender {
     double first_render_seconds = 0.0;
     double export_seconds = 0.0;
     size_t rss_peak_bytes = 0;
-    std::string date;               // when it was measured, UTC, ISO 8601
+    std::string date;                // when it was measured, UTC, ISO 8601
     std::vector<std::string> notes;  // what the engine could not take over from the scene
-    std::string engine;             // what else its engine told: JSON, or empty
+    std::string engine;              // what else its engine told: JSON, or empty
 };
 
-// Entries are <folder>/<hash of the key>.exr and .json. An entry counts only where its record holds the same key, the
-// picture has the size asked for and the hash that was recorded, and the files that the scene refers to are unchanged:
-// what is half-written, foreign or stale is made again.
+// Entries are <folder>/<hash of the key>.exr and .json. An entry counts only where its record holds the same
+// key, the picture has the size asked for and the hash that was recorded, and the files that the scene refers
+// to are unchanged: what is half-written, foreign or stale is made again.
 class RenderCache {
   public:
     RenderCache(std::filesystem::path folder, int width, int height)

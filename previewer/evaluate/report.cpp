@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.h"
+#include "evaluate/report_details.h"
 #include "image/image_io.h"
 
 namespace bounce {
@@ -80,6 +81,9 @@ ordered_json point_json(const CurvePoint& point) {
             {"pareto", point.pareto},
             {"setup_seconds", number(point.setup_seconds)},
             {"startup_seconds", number(point.startup_seconds)},
+            {"rss_peak_bytes", point.rss_peak_bytes},
+            {"gl_peak_bytes", point.gl_peak_bytes},
+            {"measured", point.measured},
             {"frames", frames}};
 }
 
@@ -105,8 +109,10 @@ ordered_json results_json(const Evaluation& evaluation) {
         for (const CurvePoint& point : curve.points) {
             points.push_back(point_json(point));
         }
-        curves.push_back(
-            {{"name", curve.name}, {"reference_engine", curve.reference_engine}, {"points", points}});
+        curves.push_back({{"name", curve.name},
+                          {"reference_engine", curve.reference_engine},
+                          {"peer", curve.peer},
+                          {"points", points}});
     }
     ordered_json speedups = ordered_json::array();
     for (const Speedup& speedup : evaluation.speedups) {
@@ -137,6 +143,9 @@ ordered_json results_json(const Evaluation& evaluation) {
             {"blender", evaluation.blender},
             {"view", {{"transform", view.view_transform}, {"look", view.look}, {"exposure", view.exposure}}},
             {"notes", evaluation.cycles.notes},
+            {"peers", peers_json(evaluation)},
+            {"startup", startup_json(evaluation)},
+            {"passes", passes_json(evaluation)},
             {"command", evaluation.command},
             {"date", evaluation.date}};
 }
@@ -160,7 +169,7 @@ std::string results_csv(const Evaluation& evaluation) {
 }
 
 std::string results_table(const Evaluation& evaluation) {
-    std::string table = fmt::format("{:<22}{:<14}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point", "s/frame",
+    std::string table = fmt::format("{:<22}{:<18}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point", "s/frame",
                                     "relMSE", "FLIP", "bias", "time to equal error");
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {

@@ -6,7 +6,8 @@
 namespace bounce {
 namespace {
 
-// The middle of a curve's points; start-up hardly depends on the point, and one slow start is not the engine's.
+// The middle of a curve's points; start-up hardly depends on the point, and one slow start is not the
+// engine's.
 double median_startup(const Evaluation& evaluation, bool (*counts)(const Curve&)) {
     std::vector<double> seconds;
     for (const Curve& curve : evaluation.curves) {
@@ -27,13 +28,15 @@ double median_startup(const Evaluation& evaluation, bool (*counts)(const Curve&)
 
 std::vector<StartUp> startups_of(const Evaluation& evaluation, double export_seconds) {
     std::vector<StartUp> rows;
-    const bool has_own = std::any_of(evaluation.curves.begin(), evaluation.curves.end(),
-                                     [](const Curve& curve) { return !curve.reference_engine && !curve.peer; });
+    const bool has_own =
+        std::any_of(evaluation.curves.begin(), evaluation.curves.end(),
+                    [](const Curve& curve) { return !curve.reference_engine && !curve.peer; });
     if (has_own) {
-        rows.push_back({"Bounce", export_seconds,
-                        median_startup(evaluation,
-                                       [](const Curve& curve) { return !curve.reference_engine && !curve.peer; }),
-                        0.0, "Start, load, shaders, a first frame and writing files together; the median of the runs."});
+        rows.push_back(
+            {"Bounce", export_seconds,
+             median_startup(evaluation,
+                            [](const Curve& curve) { return !curve.reference_engine && !curve.peer; }),
+             0.0, "Start, load, shaders, a first frame and writing files together; the median of the runs."});
     }
     rows.push_back({"Cycles", 0.0, evaluation.cycles.startup_seconds, evaluation.cycles.first_render_seconds,
                     "Blender's start and opening the scene; then a first render of one sample."});
@@ -43,10 +46,11 @@ std::vector<StartUp> startups_of(const Evaluation& evaluation, double export_sec
         }
         const CachedRender& first = peer.points.front().frames.front().render;
         const bool eevee = first.first_render_seconds > 0.0;
-        rows.push_back({peer.name, first.export_seconds, first.startup_seconds, first.first_render_seconds,
-                        eevee ? "The display's and Blender's start and opening the scene; then a first render, which "
-                                "compiles shaders."
-                              : "The display's start, start, load, shaders and writing the file together."});
+        rows.push_back(
+            {peer.name, first.export_seconds, first.startup_seconds, first.first_render_seconds,
+             eevee ? "The display's and Blender's start and opening the scene; then a first render, which "
+                     "compiles shaders."
+                   : "The display's start, start, load, shaders and writing the file together."});
     }
     return rows;
 }

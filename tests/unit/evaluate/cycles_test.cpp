@@ -51,7 +51,7 @@ class CyclesTest : public testing::Test {
 
     CyclesReport render(const fs::path& scene, int bounces, int spp, int width = 16, int height = 16) {
         CyclesJob job{scene, width, height, bounces, {}};
-        job.renders.push_back({1, spp, 1, 1, folder_ / fmt::format("{}.exr", bounces), 0.0, 0.0});
+        job.renders.push_back({1, spp, 1, 1, folder_ / fmt::format("{}.exr", bounces), 0.0, 0.0, 0, {}});
         return run_cycles(job, blender_);
     }
 
@@ -138,7 +138,7 @@ TEST_F(CyclesTest, AnExportedFileGivesTheSamePicture) {
     std::vector<Image> images;
     for (const fs::path& scene : {blend, glb}) {
         CyclesJob job{scene, 64, 36, 1, {}};
-        job.renders.push_back({6, 64, 1, 1, folder_ / "out.exr", 0.0, 0.0});
+        job.renders.push_back({6, 64, 1, 1, folder_ / "out.exr", 0.0, 0.0, 0, {}});
         const CyclesReport report = run_cycles(job, blender_);
         EXPECT_TRUE(report.notes.empty()) << report.notes.front();
         images.push_back(read_image(folder_ / "out.exr"));
