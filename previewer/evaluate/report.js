@@ -98,7 +98,9 @@ const report = (() => {
   }
   card(scientific(results.reference.noise_floor_relmse),
     `relMSE of the reference's own noise: Cycles ${results.reference.version}, ${results.reference.spp} spp, ` +
-    `${time(results.reference.seconds)} a frame`);
+    `${time(results.reference.seconds)} a frame` +
+    (best && best.relmse < 3 * results.reference.noise_floor_relmse
+      ? "; the smallest errors here are near it, and a longer reference would tell them apart" : ""));
 
   // ---- table of all points ----
   const fillPoints = () => {

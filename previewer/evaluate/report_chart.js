@@ -77,7 +77,7 @@
         scales: { x: axis("seconds a frame", minX, maxX), y: axis(metric.name, minY, maxY) },
         plugins: {
           legend: { position: "bottom",
-            labels: { usePointStyle: true, boxWidth: 9, padding: 18, color: variable("--ink"), font: { size: 13 } } },
+            labels: { usePointStyle: true, boxWidth: 7, padding: 20, color: variable("--ink"), font: { size: 13 } } },
           tooltip: {
             padding: 10,
             filter: (item) => Boolean(item.raw.point),

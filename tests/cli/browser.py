@@ -120,8 +120,8 @@ class Browser:
             time.sleep(0.05)
 
     def mouse(self, kind, x, y, buttons=0):
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left" if kind != "mouseMoved" else "none",
-                  buttons=buttons, clickCount=1 if kind != "mouseMoved" else 0)
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left" if buttons or kind == "mouseReleased" else "none",
+                  buttons=buttons, clickCount=0 if kind == "mouseMoved" else 1)
 
     def resize(self, width, height):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
