@@ -27,6 +27,7 @@ struct EvaluateArguments {
     std::string size = "640x360";
     std::vector<int> cycles_spp;
     std::vector<std::string> peers = known_peers();
+    std::string reference;
     std::filesystem::path output;
 };
 
@@ -71,6 +72,11 @@ ExitCode run_evaluate(EvaluateArguments arguments) {
     options.command = this_command();
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");
+    if (!arguments.reference.empty()) {
+        for (const int frame : options.frames) {
+            options.given_references[frame] = frame_path(arguments.reference, frame);
+        }
+    }
     options.partial = arguments.output / "partial";
     const Evaluation evaluation = evaluate(options);
     write_report(evaluation, arguments.output);
@@ -96,6 +102,9 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_option("--reference-spp", options.reference_spp, "Samples per pixel of the reference")
         ->capture_default_str();
+    command->add_option(
+        "--reference", arguments->reference,
+        "Take references from another report, not from Cycles: REPORT/frames/reference.####.exr");
     command
         ->add_option(
             "--cycles-spp", arguments->cycles_spp,

@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "evaluate/cache.h"
 #include "evaluate/cycles_cache.h"
+#include "evaluate/given_reference.h"
 #include "evaluate/report.h"
 #include "evaluate/resume.h"
 #include "evaluate/scratch_folder.h"
@@ -89,7 +90,15 @@ class Evaluator {
     }
 
     void load_references() {
+        result_.reference_spp = options_.reference_spp;
         for (const int frame : options_.frames) {
+            if (!options_.given_references.empty()) {
+                const GivenReference given =
+                    read_given_reference(options_.given_references.at(frame), key_of(frame));
+                references_[frame] = given.reference;
+                result_.reference_spp = given.spp;
+                continue;
+            }
             references_[frame] = load_reference(cache_folder() / "references", key_of(frame));
         }
     }
@@ -285,7 +294,7 @@ class Evaluator {
         result_.date = utc_now();
         result_.width = options_.width;
         result_.height = options_.height;
-        result_.reference_spp = options_.reference_spp;
+        result_.scene_hash = scene_hash_;
         result_.bounces = options_.bounces;
         result_.frames = options_.frames;
         result_.machine = this_machine();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct EvaluateOptions {
     std::vector<std::string> peers;  // of known_peers()
     double peer_limit_seconds = 60.0;
     bool fresh = false;  // measure the other engines anew; references are kept all the same
+    std::map<int, std::filesystem::path> given_references;  // by frame; empty: from the cache, or rendered
     std::filesystem::path
         partial;  // where finished runs wait for a killed evaluation to go on; empty: nowhere
 };
@@ -57,7 +59,8 @@ struct Picture {
 };
 
 struct Evaluation {
-    std::string scene;  // file name
+    std::string scene;       // file name
+    std::string scene_hash;  // of its content
     std::string command;
     std::string date;  // UTC, ISO 8601
     int width = 0;

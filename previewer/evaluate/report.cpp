@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.h"
+#include "evaluate/given_reference.h"
 #include "evaluate/report_details.h"
 #include "image/image_io.h"
 
@@ -230,7 +231,7 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
     };
     for (const Reference& reference : evaluation.references) {
         write_image(folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
-                    attributes(reference.frame));
+                    reference_attributes(evaluation, reference), ExrValues::full);
     }
     for (const Picture& picture : evaluation.pictures) {
         if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {

@@ -29,6 +29,9 @@ void write_image(const std::filesystem::path& path, const Image& image,
 // dropped where it is 1 everywhere and refused otherwise. Throws input_error.
 [[nodiscard]] Image read_image(const std::filesystem::path& path);
 
+// The metadata of the file's header whose names start with "bounce:", as text. Throws input_error.
+[[nodiscard]] ImageAttributes read_attributes(const std::filesystem::path& path);
+
 // read_image, and for the formats that are not scene-linear the sRGB curve undone, so that the Standard
 // view transform of the result gives the file's values again.
 [[nodiscard]] Image read_scene_linear(const std::filesystem::path& path);

@@ -160,7 +160,7 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         window.wait(f"getComputedStyle(document.body).backgroundColor !== '{light}'")
         for width in (1400, 800, 420):
             window.resize(width, 900)
-            assert window.evaluate("document.documentElement.scrollWidth") <= width
+            window.wait(f"document.documentElement.scrollWidth <= {width}")
         time.sleep(0.2)
         assert window.errors == []
         others = [url for url in window.requests if not url.startswith(("data:", "file:///", "about:"))]
