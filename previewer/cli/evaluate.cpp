@@ -3,7 +3,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <system_error>
 #include <tuple>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "cli/scene_source.h"
+#include "cli/sweep_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/process.h"
@@ -27,8 +27,8 @@ struct EvaluateArguments {
     std::string size = "640x360";
     std::vector<int> cycles_spp;
     std::vector<std::string> peers = known_peers();
-    std::string reference;
     std::filesystem::path output;
+    SweepOptions sweep;
 };
 
 // Each number once; a frame or a point is rendered once however often it is named.
@@ -56,7 +56,7 @@ std::vector<std::string> chosen_peers(const std::vector<std::string>& named) {
     return {once.begin(), once.end()};
 }
 
-ExitCode run_evaluate(EvaluateArguments arguments) {
+ExitCode run_evaluate(const CLI::App& command, EvaluateArguments arguments) {
     EvaluateOptions& options = arguments.options;
     options.frames = rising(parse_frames(arguments.frames));
     options.cycles_spp = arguments.cycles_spp.empty() ? default_cycles_spp(options.reference_spp)
@@ -70,21 +70,16 @@ ExitCode run_evaluate(EvaluateArguments arguments) {
     options.bounce = executable_path();
     options.runs = default_preview_runs(options.bounces);
     options.command = this_command();
+    arguments.sweep.apply(command, arguments.output, options);
+    if (!options.given_reference.empty() && options.cycles_spp.empty() && command.count("--peers") == 0) {
+        options.peers.clear();  // they need Blender, which nothing else does then
+    }
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");
-    if (!arguments.reference.empty()) {
-        for (const int frame : options.frames) {
-            options.given_references[frame] = frame_path(arguments.reference, frame);
-        }
-    }
-    options.partial = arguments.output / "partial";
     const Evaluation evaluation = evaluate(options);
     write_report(evaluation, arguments.output);
-    // The report is whole: nothing is left to go on with.
-    std::error_code ignored;
-    std::filesystem::remove_all(options.partial, ignored);
     fmt::print("{}\nreport: {}\n", results_table(evaluation), (arguments.output / "index.html").string());
-    return ExitCode::done;
+    return arguments.sweep.finish(evaluation, arguments.output);
 }
 
 }  // namespace
@@ -102,9 +97,6 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_option("--reference-spp", options.reference_spp, "Samples per pixel of the reference")
         ->capture_default_str();
-    command->add_option(
-        "--reference", arguments->reference,
-        "Take references from another report, not from Cycles: REPORT/frames/reference.####.exr");
     command
         ->add_option(
             "--cycles-spp", arguments->cycles_spp,
@@ -133,8 +125,11 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--repeat", options.repeat, "Renders of each frame by Bounce; their median counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    arguments->sweep.add_to(*command);
     add_scene_source_options(*command, options.source);
-    command->callback([arguments, &run] { run = [arguments] { return run_evaluate(*arguments); }; });
+    command->callback([command, arguments, &run] {
+        run = [command, arguments] { return run_evaluate(*command, *arguments); };
+    });
 }
 
 }  // namespace bounce::cli

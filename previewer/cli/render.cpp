@@ -11,6 +11,7 @@
 #include "cli/render_options.h"
 #include "cli/scene_source.h"
 #include "cli/stats.h"
+#include "cli/tuned_options.h"
 #include "core/atomic_file.h"
 #include "core/interrupt.h"
 #include "core/log.h"
@@ -96,7 +97,8 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
     return stats;
 }
 
-ExitCode render(const Arguments& arguments) {
+ExitCode render(const CLI::App& command, Arguments arguments) {
+    arguments.render = with_tuning(command, arguments.render);
     arguments.render.check();
     if (arguments.removed && (arguments.stats.empty() || !arguments.pass_times)) {
         throw usage_error(
@@ -108,6 +110,7 @@ ExitCode render(const Arguments& arguments) {
     }
     const scene::Scene& scene = loaded.scene;
     Settings settings = arguments.render.settings(scene);
+    note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
             "--measure-removed needs --technique ism: only kernels of virtual point lights are bounded");
@@ -198,7 +201,8 @@ void add_render(CLI::App& app, Run& run) {
         "With --stats: also how much of the indirect light bounding the lights' kernels takes away");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
-    command->callback([arguments, &run] { run = [arguments] { return render(*arguments); }; });
+    command->callback(
+        [command, arguments, &run] { run = [command, arguments] { return render(*command, *arguments); }; });
 }
 
 }  // namespace bounce::cli

@@ -57,7 +57,7 @@ class Group {
 
 void add_rsm_options(CLI::App& command, RenderOptions& o) {
     const Settings d;
-    Group group(command, "Reflective shadow maps");
+    Group group(command, k_rsm_group);
     group.number("--rsm-size", o.rsm_size,
                  "Side of a reflective shadow map in texels, half of it for a cube's faces; or auto: 512 for "
                  "technique rsm, 256 for ism",
@@ -77,7 +77,7 @@ void add_rsm_options(CLI::App& command, RenderOptions& o) {
 
 void add_vpl_options(CLI::App& command, RenderOptions& o) {
     const Settings d;
-    Group group(command, "Virtual point lights (technique ism)");
+    Group group(command, k_vpl_group);
     group.number("--vpls", o.vpls,
                  fmt::format("Virtual point lights of the first bounce, 1 to {}; rounded up to whole "
                              "interleaved blocks",
@@ -104,7 +104,7 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
 
 void add_ism_options(CLI::App& command, RenderOptions& o) {
     const Settings d;
-    Group group(command, "Shadow maps of virtual point lights (technique ism)");
+    Group group(command, k_ism_group);
     group.one_of("--visibility", o.visibility, setting_names<Visibility>(),
                  "What hides them: nothing, imperfect shadow maps of points, or maps drawn from triangles "
                  "(the reference; slow)",
@@ -227,7 +227,7 @@ void RenderOptions::add_to(CLI::App& command) {
                        "Width and height in pixels, such as 640x360; the scene's own by default");
     command.add_option("--camera", camera, "Camera node by name; the scene's active camera by default");
     command.add_option("--animation", animation, "Animation clip by name");
-    Group group(command, "Light transport");
+    Group group(command, k_light_transport_group);
     group.one_of(
         "--technique", technique, setting_names<Technique>(),
         "direct light only; rsm: one bounce gathered from reflective shadow maps, which nothing hides; ism: "
@@ -241,6 +241,15 @@ void RenderOptions::add_to(CLI::App& command) {
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
+    command
+        .add_option("--budget-ms", budget_ms,
+                    "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")
+        ->check(CLI::PositiveNumber)
+        ->group("Measured settings");
+    command
+        .add_option("--tuning", tuning,
+                    "Preset auto: the file tuning.json that bounce evaluate writes, for --budget-ms")
+        ->group("Measured settings");
     group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
     add_vpl_options(command, *this);
     add_ism_options(command, *this);

@@ -12,6 +12,12 @@
 
 namespace bounce::cli {
 
+// Groups of options in --help that say how light is drawn.
+constexpr const char* k_light_transport_group = "Light transport";
+constexpr const char* k_rsm_group = "Reflective shadow maps";
+constexpr const char* k_vpl_group = "Virtual point lights (technique ism)";
+constexpr const char* k_ism_group = "Shadow maps of virtual point lights (technique ism)";
+
 // Options that choose what the renderer does, shared by render and view. An empty one was not given: the
 // preset decides.
 struct RenderOptions {
@@ -20,6 +26,8 @@ struct RenderOptions {
     std::string animation;
     std::optional<std::string> preset;
     std::optional<std::string> technique;
+    std::optional<double> budget_ms;  // with the file `tuning`: with_tuning() puts its settings in
+    std::string tuning;
 
     // Reflective shadow maps.
     std::optional<std::string> samples;  // a number, or all

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/render_options.h"
 #include "cli/scene_source.h"
+#include "cli/tuned_options.h"
 #include "scene/gltf_loader.h"
 #include "viewer/viewer.h"
 
@@ -26,7 +27,8 @@ scene::LoadResult load(const Arguments& arguments) {
     return loaded;
 }
 
-ExitCode view(const Arguments& arguments) {
+ExitCode view(const CLI::App& command, Arguments arguments) {
+    arguments.render = with_tuning(command, arguments.render);
     arguments.render.check();
     if (arguments.render.show == "motion") {
         throw usage_error("--show motion is of a frame and the one before; bounce render writes it");
@@ -58,7 +60,8 @@ void add_view(CLI::App& app, Run& run) {
     add_scene_source_options(*command, arguments->source);
     command->get_option("--size")->description(
         "Size of the window, such as 1280x720; the scene's own by default");
-    command->callback([arguments, &run] { run = [arguments] { return view(*arguments); }; });
+    command->callback(
+        [command, arguments, &run] { run = [command, arguments] { return view(*command, *arguments); }; });
 }
 
 }  // namespace bounce::cli

@@ -52,6 +52,18 @@ double recorded_seconds(const fs::path& record) {
     return told ? json["seconds"].get<double>() : 0.0;
 }
 
+std::vector<fs::path> recorded_files(const fs::path& record) {
+    std::ifstream in(record);
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    std::vector<fs::path> files;
+    if (json.is_object() && json.contains("files") && json["files"].is_object()) {
+        for (const auto& [path, hash] : json["files"].items()) {
+            files.emplace_back(path);
+        }
+    }
+    return files;
+}
+
 bool files_unchanged(const fs::path& record) {
     std::ifstream in(record);
     const auto json = nlohmann::json::parse(in, nullptr, false);

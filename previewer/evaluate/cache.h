@@ -31,6 +31,9 @@ void write_file_hashes(const std::filesystem::path& record, const std::vector<Fi
 // True where the record can be read and every file in it still has its hash.
 [[nodiscard]] bool files_unchanged(const std::filesystem::path& record);
 
+// The files that the record names; none where it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> recorded_files(const std::filesystem::path& record);
+
 // Hash of all regular files below a folder (paths and contents), compiled Python left out.
 [[nodiscard]] std::string hash_folder(const std::filesystem::path& folder);
 

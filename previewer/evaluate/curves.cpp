@@ -11,17 +11,22 @@ CurvePoint make_point(std::string label, std::vector<FrameError> frames) {
     assert(!frames.empty());
     CurvePoint point;
     point.label = std::move(label);
+    point.seconds_least = point.seconds_most = 0.0;
     for (const FrameError& frame : frames) {
         point.seconds += frame.seconds;
         point.relmse += frame.relmse;
         point.flip_ldr += frame.flip_ldr;
         point.bias += frame.bias;
+        point.seconds_least += frame.seconds_least;
+        point.seconds_most += frame.seconds_most;
     }
     const auto count = static_cast<double>(frames.size());
     point.seconds /= count;
     point.relmse /= count;
     point.flip_ldr /= count;
     point.bias /= count;
+    point.seconds_least /= count;
+    point.seconds_most /= count;
     point.frames = std::move(frames);
     return point;
 }
@@ -42,19 +47,29 @@ std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& poi
 }
 
 void mark_pareto(std::vector<Curve>& curves) {
-    std::vector<std::pair<double, double>> points;
-    for (const Curve& curve : curves) {
-        for (const CurvePoint& point : curve.points) {
-            points.emplace_back(point.seconds, point.relmse);
-        }
-    }
-    const std::vector<bool> front = pareto_front(points);
-    size_t index = 0;
+    std::vector<CurvePoint*> all;
+    std::vector<CurvePoint*> own;
     for (Curve& curve : curves) {
         for (CurvePoint& point : curve.points) {
-            point.pareto = front[index++];
+            all.push_back(&point);
+            if (!point.options.empty()) {
+                own.push_back(&point);
+            }
         }
     }
+    const auto mark = [](const std::vector<CurvePoint*>& points, bool CurvePoint::*on_front) {
+        std::vector<std::pair<double, double>> measured;
+        measured.reserve(points.size());
+        for (const CurvePoint* point : points) {
+            measured.emplace_back(point->seconds, point->relmse);
+        }
+        const std::vector<bool> front = pareto_front(measured);
+        for (size_t i = 0; i < points.size(); ++i) {
+            points[i]->*on_front = front[i];
+        }
+    };
+    mark(all, &CurvePoint::pareto);
+    mark(own, &CurvePoint::own_front);
 }
 
 std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> ladder, double error) {
@@ -105,6 +120,39 @@ std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves) {
         }
     }
     return speedups;
+}
+
+FrontSummary summarize_front(const std::vector<Curve>& curves, const std::vector<Speedup>& speedups) {
+    FrontSummary summary;
+    summary.geometric_mean_ratio = summary.least_ratio = std::numeric_limits<double>::quiet_NaN();
+    double log_sum = 0.0;
+    for (const Curve& curve : curves) {
+        for (const CurvePoint& point : curve.points) {
+            if (!point.own_front) {
+                continue;
+            }
+            ++summary.points;
+            const auto found = std::find_if(speedups.begin(), speedups.end(), [&](const Speedup& item) {
+                return item.curve == curve.name && item.label == point.label;
+            });
+            if (found == speedups.end()) {
+                continue;
+            }
+            ++summary.compared;
+            summary.extrapolated += found->kind == EqualErrorKind::extrapolated ? 1U : 0U;
+            summary.upper_bounds += found->kind == EqualErrorKind::fastest_point ? 1U : 0U;
+            log_sum += std::log(found->ratio);
+            if (!(summary.least_ratio <= found->ratio)) {
+                summary.least_ratio = found->ratio;
+                summary.least_curve = curve.name;
+                summary.least_label = point.label;
+            }
+        }
+    }
+    if (summary.compared > 0) {
+        summary.geometric_mean_ratio = std::exp(log_sum / static_cast<double>(summary.compared));
+    }
+    return summary;
 }
 
 }  // namespace bounce

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct FrameError {
     double psnr_db = 0.0;
     double bias = 0.0;
     size_t not_finite = 0;
+    // Fastest and slowest of the repeated renders; NaN where only one time is known.
+    double seconds_least = std::numeric_limits<double>::quiet_NaN();
+    double seconds_most = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One way of rendering: means over its frames.
@@ -37,6 +41,11 @@ struct CurvePoint {
     size_t gl_peak_bytes = 0;   // of buffers and textures in OpenGL; 0 where not known
     std::string measured;       // when, where an earlier run has measured it; else empty
     std::vector<FrameError> frames;
+    // Means of the frames' least and most; NaN where not known.
+    double seconds_least = std::numeric_limits<double>::quiet_NaN();
+    double seconds_most = std::numeric_limits<double>::quiet_NaN();
+    std::vector<std::string> options;  // of `bounce render`; empty where Bounce did not draw the point
+    bool own_front = false;            // on the front of Bounce's own points
 };
 
 struct Curve {
@@ -53,7 +62,7 @@ struct Curve {
 // whose time or error is not a number is never on the front.
 [[nodiscard]] std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& seconds_and_error);
 
-// Sets CurvePoint::pareto over all curves together, by relMSE.
+// Sets CurvePoint::pareto over all curves together and own_front over the points that Bounce drew, by relMSE.
 void mark_pareto(std::vector<Curve>& curves);
 
 enum class EqualErrorKind {
@@ -85,5 +94,22 @@ struct Speedup {
 
 // Every point of Bounce's curves against the ladder of the reference engine.
 [[nodiscard]] std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves);
+
+// One scene in a line: the front of Bounce's own points against Cycles. Bounce's own, because on the common
+// front only those points remain that Cycles does not beat, which would flatter.
+struct FrontSummary {
+    size_t points = 0;        // on the front
+    size_t compared = 0;      // of these, with a time to equal error
+    size_t extrapolated = 0;  // of the compared: beyond Cycles' most exact point
+    size_t upper_bounds =
+        0;  // of the compared: Cycles' fastest is already as exact, the ratio is at most this
+    double geometric_mean_ratio = 0.0;  // Cycles' time over Bounce's; NaN where none is compared
+    double least_ratio = 0.0;           // NaN as well
+    std::string least_curve, least_label;
+};
+
+// Needs mark_pareto() before.
+[[nodiscard]] FrontSummary summarize_front(const std::vector<Curve>& curves,
+                                           const std::vector<Speedup>& speedups);
 
 }  // namespace bounce

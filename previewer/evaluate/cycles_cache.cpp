@@ -35,6 +35,7 @@ void set_engine(CyclesReport& report, const CachedRender& found) {
     report.view = {view.at("display_device"), view.at("view_transform"), view.at("look"), view.at("exposure"),
                    view.at("gamma")};
     report.notes = found.notes;
+    report.files = found.files;
     report.startup_seconds = found.startup_seconds;
     report.first_render_seconds = found.first_render_seconds;
 }

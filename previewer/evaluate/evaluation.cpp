@@ -14,10 +14,11 @@
 #include "evaluate/cycles_cache.h"
 #include "evaluate/given_reference.h"
 #include "evaluate/report.h"
-#include "evaluate/resume.h"
+#include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
 #include "evaluate/startup.h"
+#include "evaluate/stored_runs.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 
@@ -41,8 +42,17 @@ FrameError measure(int frame, double seconds, const Image& image, const Image& r
         log::warning("frame {}: {} values are NaN and {} infinite, so its errors are not numbers", frame,
                      metrics.nan, metrics.inf);
     }
-    return {frame,        seconds,         metrics.relmse, metrics.relmse_exposed,   metrics.flip_ldr,
-            metrics.ssim, metrics.psnr_db, metrics.bias,   metrics.nan + metrics.inf};
+    FrameError error;
+    error.frame = frame;
+    error.seconds = seconds;
+    error.relmse = metrics.relmse;
+    error.relmse_exposed = metrics.relmse_exposed;
+    error.flip_ldr = metrics.flip_ldr;
+    error.ssim = metrics.ssim;
+    error.psnr_db = metrics.psnr_db;
+    error.bias = metrics.bias;
+    error.not_finite = metrics.nan + metrics.inf;
+    return error;
 }
 
 class Evaluator {
@@ -51,9 +61,13 @@ class Evaluator {
         : options_(options),
           resolved_(resolve_scene(options.scene, options.source)),
           gltf_(resolved_.gltf),
-          blender_(find_blender(options.source.blender)),
-          scene_hash_(sha256_of_file(options.scene)) {
-        result_.blender = blender_version(blender_);
+          scene_hash_(sha256_of_file(options.scene)),
+          render_cache_(cache_folder() / "renders", options.width, options.height) {
+        result_.scene_sha256 = sha256_of_gltf(gltf_);
+        if (needs_cycles() || !options.peers.empty()) {
+            blender_ = find_blender(options.source.blender);
+            result_.blender = blender_version(blender_);
+        }
         load_references();
     }
 
@@ -61,19 +75,15 @@ class Evaluator {
         const auto missing = static_cast<size_t>(std::count_if(
             references_.begin(), references_.end(), [](const auto& item) { return !item.second; }));
         const size_t ladder = options_.cycles_spp.size() * options_.frames.size();
-        Progress progress("evaluate", static_cast<int>(options_.runs.size() + 2 * missing + ladder));
+        StoredRuns runs(options_, gltf_, result_.scene_sha256, scratch_.path());
+        Progress progress("evaluate", static_cast<int>(runs.missing() + 2 * missing + ladder));
         // The quick half first: what is wrong with it shows before Cycles starts its minutes.
-        const std::string program = sha256_of_file(options_.bounce) + sha256_of_file(gltf_);
-        for (const PreviewRun& run : options_.runs) {
-            const fs::path folder = options_.partial.empty() ? scratch_.path() : options_.partial;
-            previews_.push_back(run_or_resume_preview(program, options_.bounce, gltf_, run, options_.frames,
-                                                      options_.width, options_.height, options_.repeat,
-                                                      folder / fmt::format("run{}", previews_.size())));
-            progress.step(fmt::format("{}, {}: {:.3f} s a frame", run.name, run.label,
-                                      previews_.back().frames.front().seconds));
-        }
+        previews_ = runs.results([&](const std::string& note) { progress.step(note); });
         run_peers();
-        render_with_cycles(progress);
+        if (needs_cycles()) {
+            render_with_cycles(progress);
+        }
+        collect_references();
         measure_cycles();
         measure_peers();
         measure_previews();
@@ -83,6 +93,10 @@ class Evaluator {
     }
 
   private:
+    [[nodiscard]] bool needs_cycles() const {
+        return options_.given_reference.empty() || !options_.cycles_spp.empty();
+    }
+
     [[nodiscard]] ReferenceKey key_of(int frame) const {
         return {
             scene_hash_,      frame,           options_.width,       options_.height, options_.reference_spp,
@@ -90,16 +104,11 @@ class Evaluator {
     }
 
     void load_references() {
-        result_.reference_spp = options_.reference_spp;
         for (const int frame : options_.frames) {
-            if (!options_.given_references.empty()) {
-                const GivenReference given =
-                    read_given_reference(options_.given_references.at(frame), key_of(frame));
-                references_[frame] = given.reference;
-                result_.reference_spp = given.spp;
-                continue;
-            }
-            references_[frame] = load_reference(cache_folder() / "references", key_of(frame));
+            references_[frame] = options_.given_reference.empty()
+                                     ? load_reference(cache_folder() / "references", key_of(frame))
+                                     : load_given_reference(options_.given_reference, frame, options_.width,
+                                                            options_.height, options_.bounces, scene_hash_);
         }
     }
 
@@ -129,34 +138,32 @@ class Evaluator {
                 add(frame, options_.reference_spp / 2, k_seed_half2);
             }
         }
-        const RenderCache cache(cache_folder() / "renders", options_.width, options_.height);
-        const auto key = [&](const CyclesRender& render) {
-            return peer_key(peer_job(), render.frame,
-                            fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp,
-                                        render.seed, options_.bounces, render.repeat, cycles_scripts_hash()));
-        };
-        result_.cycles =
-            run_cycles_cached(job, blender_, cache, key, options_.fresh, [&](const CyclesRender& render) {
+        result_.cycles = run_cycles_cached(
+            job, blender_, render_cache_, [&](const CyclesRender& render) { return cycles_key(render); },
+            options_.fresh,
+            [&](const CyclesRender& render) {
                 progress.step(fmt::format("Cycles, frame {}, {} spp: {:.2f} s{}", render.frame, render.spp,
                                           render.seconds,
                                           render.measured.empty() ? "" : " (from an earlier run)"));
             });
+    }
+
+    [[nodiscard]] std::string cycles_key(const CyclesRender& render) const {
+        return peer_key(peer_job(), render.frame,
+                        fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp,
+                                    render.seed, options_.bounces, render.repeat, cycles_scripts_hash()));
+    }
+
+    void collect_references() {
         for (const int frame : options_.frames) {
             if (!references_[frame]) {
                 references_[frame] = reference_from_halves(frame);
             }
             result_.references.push_back(*references_[frame]);
-            for (const int seed : {k_seed_half1, k_seed_half2}) {
-                // The reference holds them now.
-                cache.remove(key({frame,
-                                  options_.reference_spp / 2,
-                                  seed,
-                                  options_.reference_spp / 2 <= k_quick_spp ? k_quick_repeat : 1,
-                                  {},
-                                  0.0,
-                                  0.0,
-                                  0,
-                                  {}}));
+        }
+        for (const CyclesRender& render : result_.cycles.renders) {
+            if (render.seed != k_seed_ladder) {
+                render_cache_.remove(cycles_key(render));  // half of a reference, which holds it now
             }
         }
     }
@@ -184,6 +191,9 @@ class Evaluator {
     }
 
     void measure_cycles() {
+        if (options_.cycles_spp.empty()) {
+            return;
+        }
         Curve curve{"Cycles", true, {}};
         for (const int spp : options_.cycles_spp) {
             std::vector<FrameError> frames;
@@ -216,18 +226,26 @@ class Evaluator {
             for (const PreviewFrame& frame : previews_[i].frames) {
                 Image image = read_image(frame.image);
                 frames.push_back(measure(frame.frame, frame.seconds, image, references_[frame.frame]->image));
+                if (!frame.all_seconds.empty()) {
+                    const auto [least, most] =
+                        std::minmax_element(frame.all_seconds.begin(), frame.all_seconds.end());
+                    frames.back().seconds_least = *least;
+                    frames.back().seconds_most = *most;
+                }
                 result_.pictures.push_back({run.name, run.label, frame.frame, std::move(image)});
             }
-            if (result_.curves.back().name != run.name) {
+            if (result_.curves.empty() || result_.curves.back().name != run.name) {
                 result_.curves.push_back({run.name, false, {}});
             }
             result_.curves.back().points.push_back(make_point(run.label, std::move(frames)));
             result_.curves.back().points.back().startup_seconds = previews_[i].startup_seconds;
             result_.curves.back().points.back().rss_peak_bytes = previews_[i].rss_peak_bytes;
             result_.curves.back().points.back().gl_peak_bytes = previews_[i].gl_peak_bytes;
+            result_.curves.back().points.back().options = run.render_arguments;
         }
         mark_pareto(result_.curves);
         result_.speedups = speedups_at_equal_error(result_.curves);
+        result_.front = summarize_front(result_.curves, result_.speedups);
     }
 
     [[nodiscard]] PeerJob peer_job() const {
@@ -259,7 +277,7 @@ class Evaluator {
                     values.measured = frame.cached ? render.date : values.measured;
                     result_.pictures.push_back({point.curve, point.label, frame.frame, render.image});
                 }
-                if (result_.curves.back().name != point.curve) {
+                if (result_.curves.empty() || result_.curves.back().name != point.curve) {
                     result_.curves.push_back({point.curve, false, {}, true});
                 }
                 CurvePoint measured = make_point(point.label, std::move(frames));
@@ -295,6 +313,10 @@ class Evaluator {
         result_.width = options_.width;
         result_.height = options_.height;
         result_.scene_hash = scene_hash_;
+        result_.given_reference = options_.given_reference;
+        result_.reference_spp = options_.given_reference.empty()
+                                    ? options_.reference_spp
+                                    : given_reference_spp(options_.given_reference, options_.frames.front());
         result_.bounces = options_.bounces;
         result_.frames = options_.frames;
         result_.machine = this_machine();
@@ -311,6 +333,7 @@ class Evaluator {
     fs::path gltf_;
     fs::path blender_;
     std::string scene_hash_;
+    RenderCache render_cache_;
     std::map<int, std::optional<Reference>> references_;
     std::vector<PreviewResult> previews_;
     Evaluation result_;

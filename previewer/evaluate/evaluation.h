@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -32,13 +31,15 @@ struct EvaluateOptions {
     SceneSourceOptions source;
     std::filesystem::path bounce;  // the program whose `render` command draws
     std::vector<PreviewRun> runs;
-    std::string command;             // as typed, for the report
-    std::vector<std::string> peers;  // of known_peers()
+    std::string command;  // as typed, for the report
+    // Image files for the reference, #### for the frame's number; empty: Cycles renders it. With it and no
+    // cycles_spp and no peers Blender is not needed.
+    std::string given_reference;
+    std::filesystem::path point_folder;  // measured runs are kept here; empty: nowhere
+    bool resume = false;                 // runs that are kept there are not measured again
+    std::vector<std::string> peers;      // of known_peers()
     double peer_limit_seconds = 60.0;
     bool fresh = false;  // measure the other engines anew; references are kept all the same
-    std::map<int, std::filesystem::path> given_references;  // by frame; empty: from the cache, or rendered
-    std::filesystem::path
-        partial;  // where finished runs wait for a killed evaluation to go on; empty: nowhere
 };
 
 // What comes before the frames that count, of one engine. 0: not known, or there is no such step.
@@ -59,8 +60,10 @@ struct Picture {
 };
 
 struct Evaluation {
-    std::string scene;       // file name
-    std::string scene_hash;  // of its content
+    std::string scene;            // file name
+    std::string scene_hash;       // of its content
+    std::string scene_sha256;     // of what the renderer loads: the .glb, also where a .blend was given
+    std::string given_reference;  // as in the options
     std::string command;
     std::string date;  // UTC, ISO 8601
     int width = 0;
@@ -75,6 +78,7 @@ struct Evaluation {
     std::vector<Reference> references;  // one a frame
     std::vector<Curve> curves;          // Cycles first
     std::vector<Speedup> speedups;
+    FrontSummary front;
     std::vector<Picture> pictures;
     std::vector<PeerResult> peers;  // what they were set to, and what is missing; their points are in curves
     std::vector<PassTimes> passes;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/given_reference.h"
 
+#include <algorithm>
 #include <charconv>
-#include <string>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,80 +15,95 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-// The header of a reference; what is missing or no number is refused.
-class Header {
-  public:
-    explicit Header(const fs::path& path) : path_(path), attributes_(read_attributes(path)) {}
+constexpr const char* k_scene = "bounce:scene";
+constexpr const char* k_scene_hash = "bounce:scene_hash";
+constexpr const char* k_frame = "bounce:frame";
+constexpr const char* k_bounces = "bounce:bounces";
+constexpr const char* k_noise_floor = "bounce:noise_floor_relmse";
+constexpr const char* k_seconds = "bounce:seconds";
+constexpr const char* k_spp = "bounce:spp";
 
-    [[nodiscard]] Error refused(const std::string& why) const {
-        return input_error(fmt::format("the reference {} cannot be used: {}", path_.string(), why));
+fs::path path_of(const std::string& name, int frame) {
+    constexpr std::string_view field = "####";
+    const size_t at = name.find(field);
+    return at == std::string::npos ? name
+                                   : std::string(name).replace(at, field.size(), fmt::format("{:04}", frame));
+}
+
+// A number of the header; nothing where it is not there. Throws input_error where it is no number.
+template <typename T>
+std::optional<T> number(const ImageAttributes& attributes, const char* name, const fs::path& path) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) {
+        return std::nullopt;
     }
-
-    [[nodiscard]] std::string text(const std::string& name) const {
-        const auto found = attributes_.find("bounce:" + name);
-        if (found == attributes_.end()) {
-            throw refused(
-                fmt::format("it does not say its {}; give one that bounce evaluate wrote, "
-                            "frames/reference.####.exr of a report",
-                            name));
-        }
-        return found->second;
+    const std::string& text = found->second;
+    T value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size()) {
+        throw input_error(
+            fmt::format("the reference {} says {} = '{}', which is no number", path.string(), name, text));
     }
-
-    template <typename Number>
-    [[nodiscard]] Number number(const std::string& name) const {
-        const std::string value = text(name);
-        Number result{};
-        const auto [end, code] = std::from_chars(value.data(), value.data() + value.size(), result);
-        if (code != std::errc() || end != value.data() + value.size()) {
-            throw refused(fmt::format("its {} is \"{}\"", name, value));
-        }
-        return result;
-    }
-
-  private:
-    const fs::path& path_;
-    ImageAttributes attributes_;
-};
+    return value;
+}
 
 }  // namespace
 
-ImageAttributes reference_attributes(const Evaluation& evaluation, const Reference& reference) {
-    return {{"bounce:scene", evaluation.scene},
-            {"bounce:scene_sha256", evaluation.scene_hash},
-            {"bounce:frame", std::to_string(reference.frame)},
-            {"bounce:bounces", std::to_string(evaluation.bounces)},
-            {"bounce:spp", std::to_string(evaluation.reference_spp)},
-            {"bounce:seconds", fmt::format("{}", reference.seconds)},
-            {"bounce:noise_floor_relmse", fmt::format("{}", reference.noise_floor)}};
+ImageAttributes reference_attributes(const Reference& reference, const std::string& scene,
+                                     const std::string& scene_hash, int bounces, int spp) {
+    ImageAttributes attributes{{k_scene, scene},
+                               {k_scene_hash, scene_hash},
+                               {k_frame, std::to_string(reference.frame)},
+                               {k_bounces, std::to_string(bounces)},
+                               {k_seconds, fmt::format("{}", reference.seconds)}};
+    if (std::isfinite(reference.noise_floor)) {
+        attributes[k_noise_floor] = fmt::format("{}", reference.noise_floor);
+    }
+    if (spp > 0) {
+        attributes[k_spp] = std::to_string(spp);
+    }
+    return attributes;
 }
 
-GivenReference read_given_reference(const fs::path& path, const ReferenceKey& key) {
-    GivenReference given;
-    given.reference.image = read_image(path);
-    const Header header(path);
-    if (header.text("scene_sha256") != key.scene_hash) {
-        throw header.refused(
-            fmt::format("it is of another scene, {}, or of another state of this one", header.text("scene")));
+Reference load_given_reference(const std::string& name, int frame, int width, int height, int bounces,
+                               const std::string& scene_hash) {
+    const fs::path path = path_of(name, frame);
+    Reference reference;
+    reference.frame = frame;
+    reference.cached = true;
+    reference.image = read_scene_linear(path);
+    if (reference.image.width != width || reference.image.height != height) {
+        throw input_error(fmt::format("the reference {} is {}x{}, the frames are {}x{}; give --size {}x{}",
+                                      path.string(), reference.image.width, reference.image.height, width,
+                                      height, reference.image.width, reference.image.height));
     }
-    given.reference.frame = header.number<int>("frame");
-    if (given.reference.frame != key.frame) {
-        throw header.refused(fmt::format("it is of frame {}, not {}", given.reference.frame, key.frame));
+    const ImageAttributes header = read_attributes(path);
+    if (const auto of = header.find(k_scene_hash); of != header.end() && of->second != scene_hash) {
+        const auto scene = header.find(k_scene);
+        throw input_error(fmt::format("the reference {} is of another scene or of another state of it: {}",
+                                      path.string(), scene == header.end() ? "unnamed" : scene->second));
     }
-    const Image& image = given.reference.image;
-    if (image.width != key.width || image.height != key.height) {
-        throw header.refused(fmt::format("it is {} x {}, not {} x {}; give --size {}x{}", image.width,
-                                         image.height, key.width, key.height, image.width, image.height));
+    if (const auto of = number<int>(header, k_frame, path); of && *of != frame) {
+        throw input_error(
+            fmt::format("the reference {} is of frame {}, not of frame {}", path.string(), *of, frame));
     }
-    if (const int bounces = header.number<int>("bounces"); bounces != key.bounces) {
-        throw header.refused(
-            fmt::format("its bounces are {}, not {}; give --bounces {}", bounces, key.bounces, bounces));
+    if (const auto of = number<int>(header, k_bounces, path); of && *of != bounces) {
+        throw input_error(fmt::format("the reference {} has {} bounces of light; give --bounces {}",
+                                      path.string(), *of, *of));
     }
-    given.spp = header.number<int>("spp");
-    given.reference.seconds = header.number<double>("seconds");
-    given.reference.noise_floor = header.number<double>("noise_floor_relmse");
-    given.reference.cached = true;
-    return given;
+    if (!std::all_of(reference.image.rgb.begin(), reference.image.rgb.end(),
+                     [](float value) { return std::isfinite(value); })) {
+        throw input_error(fmt::format("the reference {} has values that are not numbers", path.string()));
+    }
+    reference.noise_floor =
+        number<double>(header, k_noise_floor, path).value_or(std::numeric_limits<double>::quiet_NaN());
+    reference.seconds = number<double>(header, k_seconds, path).value_or(0.0);
+    return reference;
+}
+
+int given_reference_spp(const std::string& name, int frame) {
+    const fs::path path = path_of(name, frame);
+    return number<int>(read_attributes(path), k_spp, path).value_or(0);
 }
 
 }  // namespace bounce

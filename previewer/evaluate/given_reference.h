@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// References as files of their own: a report writes them, another evaluation of the same frames may take
-// them.
 #pragma once
 
-#include <filesystem>
+#include <string>
 
-#include "evaluate/evaluation.h"
 #include "evaluate/reference.h"
 #include "image/image_io.h"
 
 namespace bounce {
 
-// What a report's reference says of itself in its header.
-[[nodiscard]] ImageAttributes reference_attributes(const Evaluation& evaluation, const Reference& reference);
+// What a reference picture says of itself in its header: written by write_report(), read by
+// load_given_reference().
+[[nodiscard]] ImageAttributes reference_attributes(const Reference& reference, const std::string& scene,
+                                                   const std::string& scene_hash, int bounces, int spp);
 
-struct GivenReference {
-    Reference reference;
-    int spp = 0;
-};
+// A frame's reference from an image file instead of from Cycles. name: #### stands for the frame's number.
+// Its noise floor and time are what its header says, else NaN and 0. Throws input_error where it cannot be
+// read, where its size, or by its header its scene, frame or bounces, are not those asked for, and where it
+// has values that are not numbers.
+[[nodiscard]] Reference load_given_reference(const std::string& name, int frame, int width, int height,
+                                             int bounces, const std::string& scene_hash);
 
-// Reads such a file. Throws input_error, with a sentence, where it is of another scene, frame, size or number
-// of bounces than key, or does not say of what it is.
-[[nodiscard]] GivenReference read_given_reference(const std::filesystem::path& path, const ReferenceKey& key);
+// The samples a pixel that the reference's header tells; 0 where it does not. Throws input_error.
+[[nodiscard]] int given_reference_spp(const std::string& name, int frame);
 
 }  // namespace bounce

@@ -53,7 +53,8 @@ PreviewResult read_stats(const fs::path& stats, const std::vector<int>& frames, 
         frame.image = folder / frame_file(frame.frame);
         if (item.contains("wall_ms_all")) {
             for (const auto& wall : item["wall_ms_all"]) {
-                rendering += wall.get<double>() / 1000.0;
+                frame.all_seconds.push_back(wall.get<double>() / 1000.0);
+                rendering += frame.all_seconds.back();
             }
         } else {
             rendering += frame.seconds;

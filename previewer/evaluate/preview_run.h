@@ -21,8 +21,9 @@ struct PreviewRun {
 
 struct PreviewFrame {
     int frame = 1;
-    double seconds = 0.0;         // median of the repeated renders
-    std::filesystem::path image;  // scene-linear EXR
+    double seconds = 0.0;             // median of the repeated renders
+    std::filesystem::path image;      // scene-linear EXR
+    std::vector<double> all_seconds;  // of the repeated renders, in their order
 };
 
 struct PreviewResult {

@@ -87,7 +87,8 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
 void store_reference(const fs::path& folder, const ReferenceKey& key, const Reference& reference,
                      const std::vector<fs::path>& scene_files) {
     const std::string name = cache_name(key);
-    write_image(folder / (name + ".exr"), reference.image);
+    // Full floats: an evaluation that finds the reference gives the figures of the one that rendered it.
+    write_image(folder / (name + ".exr"), reference.image, {}, ExrValues::full);
     write_text_file(folder / (name + ".json"),
                     nlohmann::json{{"noise_floor_relmse", reference.noise_floor},
                                    {"seconds", reference.seconds},

@@ -75,6 +75,7 @@ std::optional<CachedRender> RenderCache::load(const std::string& key) const {
         render.date = record.at("date");
         render.notes = record.at("notes").get<std::vector<std::string>>();
         render.engine = record.at("engine");
+        render.files = recorded_files(file(key, ".files.json"));
         return render;
     } catch (const Error& error) {
         log::warning("{} is made again: {}", image.string(), error.what());

@@ -22,9 +22,10 @@ struct CachedRender {
     double first_render_seconds = 0.0;
     double export_seconds = 0.0;
     size_t rss_peak_bytes = 0;
-    std::string date;                // when it was measured, UTC, ISO 8601
-    std::vector<std::string> notes;  // what the engine could not take over from the scene
-    std::string engine;              // what else its engine told: JSON, or empty
+    std::string date;                          // when it was measured, UTC, ISO 8601
+    std::vector<std::string> notes;            // what the engine could not take over from the scene
+    std::vector<std::filesystem::path> files;  // that the scene refers to; set by load()
+    std::string engine;                        // what else its engine told: JSON, or empty
 };
 
 // Entries are <folder>/<hash of the key>.exr and .json. An entry counts only where its record holds the same

@@ -49,7 +49,8 @@ ordered_json reference_json(const Evaluation& evaluation) {
                           {"noise_floor_relmse", number(reference.noise_floor)},
                           {"cached", reference.cached}});
     }
-    return {{"engine", "Cycles (CPU)"},
+    const bool given = !evaluation.given_reference.empty();
+    return {{"engine", given ? "a given image: " + evaluation.given_reference : "Cycles (CPU)"},
             {"version", evaluation.cycles.version},
             {"spp", evaluation.reference_spp},
             {"seconds", number(mean_of(evaluation.references, &Reference::seconds))},
@@ -85,7 +86,22 @@ ordered_json point_json(const CurvePoint& point) {
             {"rss_peak_bytes", point.rss_peak_bytes},
             {"gl_peak_bytes", point.gl_peak_bytes},
             {"measured", point.measured},
+            {"seconds_least", number(point.seconds_least)},
+            {"seconds_most", number(point.seconds_most)},
+            {"own_front", point.own_front},
+            {"options", point.options},
             {"frames", frames}};
+}
+
+ordered_json front_json(const FrontSummary& front) {
+    return {{"points", front.points},
+            {"compared", front.compared},
+            {"extrapolated", front.extrapolated},
+            {"upper_bounds", front.upper_bounds},
+            {"geometric_mean_ratio", number(front.geometric_mean_ratio)},
+            {"least_ratio", number(front.least_ratio)},
+            {"least_curve", front.least_curve},
+            {"least_label", front.least_label}};
 }
 
 // A part of a file name: "RSM, every pixel" becomes "rsm_every_pixel".
@@ -99,6 +115,32 @@ std::string slug(const std::string& text) {
         }
     }
     return result;
+}
+
+// "-3+12%": the fastest and the slowest of the repeated renders against the median.
+std::string spread_text(const CurvePoint& point) {
+    if (!std::isfinite(point.seconds_least) || !(point.seconds > 0.0)) {
+        return "";
+    }
+    return fmt::format("{:+.0f}{:+.0f}%", 100.0 * (point.seconds_least / point.seconds - 1.0),
+                       100.0 * (point.seconds_most / point.seconds - 1.0));
+}
+
+// Empty where it is not known.
+std::string if_known(double value) {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
+}
+
+// The row's last columns: empty where there is no time to equal error.
+std::string equal_error_csv(const Evaluation& evaluation, const std::string& curve,
+                            const std::string& label) {
+    for (const Speedup& speedup : evaluation.speedups) {
+        if (speedup.curve == curve && speedup.label == label) {
+            return fmt::format("{:.6g},{:.6g},{}", speedup.cycles_seconds, speedup.ratio,
+                               kind_name(speedup.kind));
+        }
+    }
+    return ",,";
 }
 
 }  // namespace
@@ -127,9 +169,11 @@ ordered_json results_json(const Evaluation& evaluation) {
     }
     const ViewTransform& view = evaluation.cycles.view;
     return {{"scene", evaluation.scene},
+            {"scene_sha256", evaluation.scene_sha256},
             {"reference", reference_json(evaluation)},
             {"curves", curves},
             {"speedup_at_equal_error", speedups},
+            {"own_front", front_json(evaluation.front)},
             {"width", evaluation.width},
             {"height", evaluation.height},
             {"frames", evaluation.frames},
@@ -152,17 +196,22 @@ ordered_json results_json(const Evaluation& evaluation) {
 }
 
 std::string results_csv(const Evaluation& evaluation) {
-    std::string csv = "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,ssim,psnr_db,bias,pareto\n";
+    std::string csv =
+        "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,ssim,psnr_db,bias,pareto,own_front,"
+        "seconds_least,seconds_most,cycles_seconds,ratio,cycles_time\n";
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
-            csv +=
-                fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{}\n", curve.name, point.label,
-                            point.seconds, point.relmse, point.flip_ldr, point.bias, point.pareto);
+            csv += fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{},{},{},{},{}\n",
+                               curve.name, point.label, point.seconds, point.relmse, point.flip_ldr,
+                               point.bias, point.pareto, point.own_front, if_known(point.seconds_least),
+                               if_known(point.seconds_most),
+                               equal_error_csv(evaluation, curve.name, point.label));
             for (const FrameError& frame : point.frames) {
-                csv +=
-                    fmt::format("\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},\n",
-                                curve.name, point.label, frame.frame, frame.seconds, frame.relmse,
-                                frame.relmse_exposed, frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias);
+                csv += fmt::format(
+                    "\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},,,{},{},,,\n",
+                    curve.name, point.label, frame.frame, frame.seconds, frame.relmse, frame.relmse_exposed,
+                    frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias, if_known(frame.seconds_least),
+                    if_known(frame.seconds_most));
             }
         }
     }
@@ -170,8 +219,9 @@ std::string results_csv(const Evaluation& evaluation) {
 }
 
 std::string results_table(const Evaluation& evaluation) {
-    std::string table = fmt::format("{:<22}{:<18}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point", "s/frame",
-                                    "relMSE", "FLIP", "bias", "time to equal error");
+    // Spread: from the fastest to the slowest of the repeated renders, as parts of the median.
+    std::string table = fmt::format("{:<22}{:<18}{:>11}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point",
+                                    "s/frame", "spread", "relMSE", "FLIP", "bias", "time to equal error");
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
             const auto speedup = std::find_if(
@@ -184,10 +234,15 @@ std::string results_table(const Evaluation& evaluation) {
                                     speedup->cycles_seconds, at_most ? "<= " : "", speedup->ratio,
                                     speedup->kind == EqualErrorKind::extrapolated ? " (extrapolated)" : "");
             }
-            table += fmt::format("{:<22}{:<14}{:>11.4f}{:>12.3g}{:>9.4f}{:>+8.2f}% {}{}\n", curve.name,
-                                 point.label, point.seconds, point.relmse, point.flip_ldr, 100.0 * point.bias,
-                                 point.pareto ? "* " : "  ", equal);
+            table += fmt::format("{:<22}{:<18}{:>11.4f}{:>11}{:>12.3g}{:>9.4f}{:>+8.2f}% {}{}\n", curve.name,
+                                 point.label, point.seconds, spread_text(point), point.relmse, point.flip_ldr,
+                                 100.0 * point.bias, point.pareto ? "* " : "  ", equal);
         }
+    }
+    if (!evaluation.given_reference.empty()) {
+        return table + fmt::format("* on the Pareto front. Reference: {}, noise floor {:.2g}.\n",
+                                   evaluation.given_reference,
+                                   mean_of(evaluation.references, &Reference::noise_floor));
     }
     table += fmt::format(
         "* on the Pareto front. Reference: Cycles {}, {} spp, {:.1f} s a frame, noise floor {:.2g}.\n",
@@ -231,7 +286,8 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
     };
     for (const Reference& reference : evaluation.references) {
         write_image(folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
-                    reference_attributes(evaluation, reference), ExrValues::full);
+                    reference_attributes(reference, evaluation.scene, evaluation.scene_hash,
+                                         evaluation.bounces, evaluation.reference_spp));
     }
     for (const Picture& picture : evaluation.pictures) {
         if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {

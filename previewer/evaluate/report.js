@@ -96,10 +96,14 @@ const report = (() => {
     card(time(best.seconds), `a frame: ${best.curve}, ${best.label}, the fastest within 10 % of the smallest error`);
     card(scientific(best.relmse), `its relMSE, with a bias of ${percent(best.bias)} and FLIP ${digits(best.flip_ldr, 3)}`);
   }
-  card(scientific(results.reference.noise_floor_relmse),
-    `relMSE of the reference's own noise: Cycles ${results.reference.version}, ${results.reference.spp} spp, ` +
-    `${time(results.reference.seconds)} a frame` +
-    (best && best.relmse < 3 * results.reference.noise_floor_relmse
+  // A reference from files may not say how it was made.
+  const given = results.reference.engine !== "Cycles (CPU)";
+  const spp = results.reference.spp > 0 ? `, ${results.reference.spp} spp` : "";
+  const referenceText = given ? `${results.reference.engine}${spp}`
+    : `Cycles ${results.reference.version}${spp}, ${time(results.reference.seconds)} a frame`;
+  card(results.reference.noise_floor_relmse === null ? "not known" : scientific(results.reference.noise_floor_relmse),
+    `relMSE of the reference's own noise: ${referenceText}` +
+    (best && results.reference.noise_floor_relmse !== null && best.relmse < 3 * results.reference.noise_floor_relmse
       ? "; the smallest errors here are near it, and a longer reference would tell them apart" : ""));
 
   // ---- table of all points ----
@@ -168,13 +172,14 @@ const report = (() => {
   };
   const cycles = results.curves.find((curve) => curve.reference_engine);
   const setup = cycles && cycles.points.length > 0 ? cycles.points[0].setup_seconds : 0;
-  fact("Reference", `Cycles on the CPU, ${results.blender}, ${results.reference.threads} threads, ` +
+  fact("Reference", given ? `${referenceText}; its direct light and ${results.reference.bounces} bounces as it says itself.`
+    : `Cycles on the CPU, ${results.blender}, ${results.reference.threads} threads, ` +
     `${results.reference.spp} samples a pixel in two halves with different seeds: direct light and ` +
     `${results.reference.bounces} bounce${results.reference.bounces === 1 ? "" : "s"}, diffuse or glossy; no ` +
     "clamping, denoiser or adaptive sampling; Blackman-Harris filter, width 1.5.");
   fact("Error", "relMSE: mean over pixels and channels of (a − b)² / (b² + 0.01) on scene-linear values. FLIP " +
     "(Andersson et al., 2020) after the Standard view transform. Bias: mean(a) / mean(b) − 1.");
-  fact("Noise floor", `An exact picture would score ${scientific(results.reference.noise_floor_relmse)} against this ` +
+  if (results.reference.noise_floor_relmse !== null) fact("Noise floor", `An exact picture would score ${scientific(results.reference.noise_floor_relmse)} against this ` +
     "reference: half the difference of its two halves, squared and weighted as in relMSE.");
   fact("Time", "Per frame in steady state: Cycles renders a frame once before the render that is timed (the median of " +
     "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +

@@ -38,8 +38,11 @@ std::vector<StartUp> startups_of(const Evaluation& evaluation, double export_sec
                             [](const Curve& curve) { return !curve.reference_engine && !curve.peer; }),
              0.0, "Start, load, shaders, a first frame and writing files together; the median of the runs."});
     }
-    rows.push_back({"Cycles", 0.0, evaluation.cycles.startup_seconds, evaluation.cycles.first_render_seconds,
-                    "Blender's start and opening the scene; then a first render of one sample."});
+    if (!evaluation.cycles.version.empty()) {
+        rows.push_back({"Cycles", 0.0, evaluation.cycles.startup_seconds,
+                        evaluation.cycles.first_render_seconds,
+                        "Blender's start and opening the scene; then a first render of one sample."});
+    }
     for (const PeerResult& peer : evaluation.peers) {
         if (peer.points.empty()) {
             continue;

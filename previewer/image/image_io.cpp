@@ -169,20 +169,6 @@ void write_image(const fs::path& path, const Image& image, const ImageAttributes
     file.commit();
 }
 
-ImageAttributes read_attributes(const fs::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) {
-        throw cannot_read(path, one_line(OIIO::geterror()));
-    }
-    ImageAttributes attributes;
-    for (const OIIO::ParamValue& item : input->spec().extra_attribs) {
-        if (item.name().string().starts_with("bounce:")) {
-            attributes[item.name().string()] = item.get_string();
-        }
-    }
-    return attributes;
-}
-
 Image read_image(const fs::path& path) {
     std::error_code code;
     if (!fs::exists(path, code)) {
@@ -222,6 +208,20 @@ Image read_image(const fs::path& path) {
         }
     }
     return image;
+}
+
+ImageAttributes read_attributes(const fs::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) {
+        throw cannot_read(path, one_line(OIIO::geterror()));
+    }
+    ImageAttributes attributes;
+    for (const OIIO::ParamValue& value : input->spec().extra_attribs) {
+        if (value.name().string().starts_with("bounce:") && value.type() == OIIO::TypeDesc::STRING) {
+            attributes[value.name().string()] = value.get_string();
+        }
+    }
+    return attributes;
 }
 
 Image read_scene_linear(const fs::path& path) {

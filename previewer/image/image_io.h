@@ -29,7 +29,8 @@ void write_image(const std::filesystem::path& path, const Image& image,
 // dropped where it is 1 everywhere and refused otherwise. Throws input_error.
 [[nodiscard]] Image read_image(const std::filesystem::path& path);
 
-// The metadata of the file's header whose names start with "bounce:", as text. Throws input_error.
+// The text attributes of the file's header whose names begin with "bounce:", as write_image() puts them
+// there. Throws input_error.
 [[nodiscard]] ImageAttributes read_attributes(const std::filesystem::path& path);
 
 // read_image, and for the formats that are not scene-linear the sRGB curve undone, so that the Standard

@@ -55,18 +55,19 @@ def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, t
                 break
         process.send_signal(signal.SIGKILL)
     assert not (tmp_path / "report/results.json").exists(), "half a report"
-    run = tmp_path / "report/partial/run0/done.json"
-    finished = run.stat().st_mtime_ns
+    points = list((tmp_path / "report/points").iterdir())
+    assert len(points) == 1
+    finished = (points[0] / "stats.json").stat().st_mtime_ns
     before = len(jobs(engines))
     (engines / "hang").unlink()
 
-    done = bounce(*command, environment=environment)
+    done = bounce(*command, "--resume", environment=environment)
     assert done.returncode == 0, done.stderr
     again = jobs(engines)[before:]
     assert [job["script"] for job in again] == ["cycles_render.py"], "Eevee and f3d were finished"
     asked = [(frame["frame"], item["spp"]) for frame in again[0]["frames"] for item in frame["renders"]]
     assert asked == [(10, 16), (10, 16), (11, 1), (11, 4), (11, 16), (11, 16)]
-    assert finished and not run.exists(), "what was to go on with is gone with the whole report"
+    assert (points[0] / "stats.json").stat().st_mtime_ns == finished, "Bounce's own run was finished too"
     results = json.loads((tmp_path / "report/results.json").read_text(encoding="utf-8"))
     assert {curve["name"] for curve in results["curves"]} == {"Cycles", "Eevee", "f3d", "Direct light only"}
     own = next(curve for curve in results["curves"] if curve["name"] == "Direct light only")

@@ -99,5 +99,70 @@ TEST(Speedups, CompareEveryPointOfTheOthers) {
     EXPECT_EQ(speedups[1].kind, EqualErrorKind::extrapolated);
 }
 
+CurvePoint own_point(std::string label, double seconds, double relmse) {
+    CurvePoint made = point(std::move(label), seconds, relmse);
+    made.options = {"--vpls", "64"};
+    return made;
+}
+
+TEST(MakePoint, SpreadIsTheMeanOverFramesAndNaNWhereUnknown) {
+    FrameError frame{1, 0.1, 0.02, 0.02, 0.1, 0.9, 30, 0.0, 0};
+    EXPECT_TRUE(std::isnan(make_point("x", {frame}).seconds_least));
+    FrameError other = frame;
+    frame.seconds_least = 0.09;
+    frame.seconds_most = 0.12;
+    EXPECT_TRUE(std::isnan(make_point("x", {frame, other}).seconds_most));
+    other.seconds_least = 0.05;
+    other.seconds_most = 0.16;
+    EXPECT_NEAR(make_point("x", {frame, other}).seconds_least, 0.07, 1e-12);
+    EXPECT_NEAR(make_point("x", {frame, other}).seconds_most, 0.14, 1e-12);
+}
+
+TEST(MarkPareto, BouncesOwnFrontLeavesOtherEnginesOut) {
+    std::vector<Curve> curves{{"Cycles", true, {point("1", 0.01, 0.001)}},
+                              {"Other", false, {point("peer", 0.02, 0.0005)}},
+                              {"Bounce", false, {own_point("a", 0.1, 0.1), own_point("b", 0.2, 0.2)}}};
+    mark_pareto(curves);
+    EXPECT_FALSE(curves[2].points[0].pareto) << "Cycles is faster and more exact";
+    EXPECT_TRUE(curves[2].points[0].own_front);
+    EXPECT_FALSE(curves[2].points[1].own_front);
+    EXPECT_FALSE(curves[0].points[0].own_front);
+    EXPECT_FALSE(curves[1].points[0].own_front);
+}
+
+// Cycles: 0.1 at 1 s, 0.01 at 10 s. Ratios by hand: 0.1 s for 0.03162 (Cycles 3.162 s) is 31.62; 0.2 s for
+// 0.01 is 50; 2 s for 0.001 is 50, beyond Cycles' last point.
+TEST(SummarizeFront, GeometricMeanAndWorstOverTheOwnFront) {
+    std::vector<Curve> curves{{"Cycles", true, {point("1", 1.0, 0.1), point("10", 10.0, 0.01)}},
+                              {"Bounce",
+                               false,
+                               {own_point("a", 0.1, std::sqrt(0.001)), own_point("b", 0.2, 0.01),
+                                own_point("c", 2.0, 0.001), own_point("beaten", 0.3, 0.05)}}};
+    mark_pareto(curves);
+    const FrontSummary summary = summarize_front(curves, speedups_at_equal_error(curves));
+    EXPECT_EQ(summary.points, 3U);
+    EXPECT_EQ(summary.compared, 3U);
+    EXPECT_EQ(summary.extrapolated, 1U);
+    EXPECT_EQ(summary.upper_bounds, 0U);
+    EXPECT_NEAR(summary.geometric_mean_ratio, std::cbrt(31.6227766 * 50.0 * 50.0), 1e-6);
+    EXPECT_NEAR(summary.least_ratio, 31.6227766, 1e-6);
+    EXPECT_EQ(summary.least_label, "a");
+}
+
+TEST(SummarizeFront, CountsUpperBoundsAndIsNaNWithoutALadder) {
+    std::vector<Curve> curves{{"Cycles", true, {point("1", 1.0, 0.1), point("10", 10.0, 0.01)}},
+                              {"Bounce", false, {own_point("a", 0.1, 0.5)}}};
+    mark_pareto(curves);
+    const FrontSummary bound = summarize_front(curves, speedups_at_equal_error(curves));
+    EXPECT_EQ(bound.upper_bounds, 1U);
+    EXPECT_NEAR(bound.least_ratio, 10.0, 1e-9);
+    curves.erase(curves.begin());
+    const FrontSummary none = summarize_front(curves, speedups_at_equal_error(curves));
+    EXPECT_EQ(none.points, 1U);
+    EXPECT_EQ(none.compared, 0U);
+    EXPECT_TRUE(std::isnan(none.geometric_mean_ratio));
+    EXPECT_TRUE(std::isnan(none.least_ratio));
+}
+
 }  // namespace
 }  // namespace bounce

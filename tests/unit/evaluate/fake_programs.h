@@ -27,10 +27,13 @@ inline void write_constant(const std::filesystem::path& path, float value, int w
 
 // clang-format off
 // `bounce render`: copies picture.exr to the output of each frame and tells of 20 ms a frame, 30 ms in the
-// first of three renders. Its arguments are appended to bounce_calls, a line a call.
+// first of three renders. Its arguments are appended to bounce_calls, a line a call; those of a run that times passes to pass_calls.
 inline std::filesystem::path fake_bounce(const std::filesystem::path& folder) {
     return write_script(folder / "bounce", "#!/bin/sh\nset -e\nhere='" + folder.string() + R"sh('
-echo "$@" >> "$here/bounce_calls"
+case "$*" in
+  *--no-pass-times*) echo "$@" >> "$here/bounce_calls";;
+  *) echo "$@" >> "$here/pass_calls";;
+esac
 while [ $# -gt 0 ]; do
   case "$1" in
     -o) output=$2; shift;;

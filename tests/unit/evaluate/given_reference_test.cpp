@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/given_reference.h"
 
-#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "fake_programs.h"
 #include "temporary_folder.h"
 
 namespace bounce {
@@ -15,74 +18,65 @@ namespace {
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-class GivenReferenceTest : public testing::Test {
-  protected:
-    GivenReferenceTest() {
-        evaluation_.scene = "room.blend";
-        evaluation_.scene_hash = "hash";
-        evaluation_.reference_spp = 512;
-        evaluation_.bounces = 2;
-        reference_.frame = 12;
-        reference_.image = Image(8, 4);
-        std::fill(reference_.image.rgb.begin(), reference_.image.rgb.end(), 0.3F);
-        reference_.noise_floor = 1.25e-5;
-        reference_.seconds = 33.5;
-        write(reference_attributes(evaluation_, reference_));
+std::string refusal(const std::string& name, int frame, int width, int height, int bounces) {
+    try {
+        (void)load_given_reference(name, frame, width, height, bounces, "hash");
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::input_refused);
+        return error.what();
     }
-
-    void write(const ImageAttributes& attributes) const {
-        write_image(path_, reference_.image, attributes, ExrValues::full);
-    }
-
-    [[nodiscard]] std::string refusal(const ReferenceKey& key) const {
-        try {
-            (void)read_given_reference(path_, key);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ExitCode::input_refused);
-            return error.what();
-        }
-        return "";
-    }
-
-    TemporaryFolder folder_;
-    std::filesystem::path path_ = folder_ / "reference.0012.exr";
-    Evaluation evaluation_;
-    Reference reference_;
-    ReferenceKey key_{"hash", 12, 8, 4, 1024, 2, "", ""};
-};
-
-TEST_F(GivenReferenceTest, IsReadBackWithWhatItSays) {
-    const GivenReference given = read_given_reference(path_, key_);
-    EXPECT_EQ(given.reference.image.rgb, reference_.image.rgb);
-    EXPECT_EQ(given.reference.noise_floor, 1.25e-5);
-    EXPECT_EQ(given.reference.seconds, 33.5);
-    EXPECT_EQ(given.spp, 512) << "its own, not those asked for";
+    return {};
 }
 
-TEST_F(GivenReferenceTest, OfSomethingElseIsRefused) {
-    ReferenceKey key = key_;
-    key.scene_hash = "other";
-    EXPECT_THAT(refusal(key), HasSubstr("another scene, room.blend"));
-    key = key_;
-    key.frame = 1;
-    EXPECT_THAT(refusal(key), HasSubstr("of frame 12, not 1"));
-    key = key_;
-    key.width = 16;
-    EXPECT_THAT(refusal(key), HasSubstr("8 x 4, not 16 x 4; give --size 8x4"));
-    key = key_;
-    key.bounces = 1;
-    EXPECT_THAT(refusal(key), HasSubstr("give --bounces 2"));
+TEST(GivenReference, TellsWhatItsHeaderSays) {
+    const TemporaryFolder folder;
+    Reference reference;
+    reference.frame = 24;
+    reference.image = Image(4, 2);
+    reference.noise_floor = 1.25e-5;
+    reference.seconds = 12.5;
+    write_image(folder / "ref.0024.exr", reference.image,
+                reference_attributes(reference, "room.blend", "hash", 2, 512));
+    const std::string name = (folder / "ref.####.exr").string();
+    const Reference read = load_given_reference(name, 24, 4, 2, 2, "hash");
+    EXPECT_EQ(read.frame, 24);
+    EXPECT_EQ(read.image.rgb, reference.image.rgb);
+    EXPECT_EQ(read.noise_floor, 1.25e-5);
+    EXPECT_EQ(read.seconds, 12.5);
+    EXPECT_EQ(given_reference_spp(name, 24), 512);
+
+    EXPECT_THAT(refusal(name, 24, 8, 2, 2), HasSubstr("is 4x2, the frames are 8x2"));
+    EXPECT_THAT(refusal(name, 24, 4, 2, 1), HasSubstr("has 2 bounces"));
+    EXPECT_THAT(refusal((folder / "ref.0024.exr").string(), 1, 4, 2, 2),
+                HasSubstr("is of frame 24, not of frame 1"));
+    EXPECT_THAT(refusal(name, 1, 4, 2, 2), HasSubstr("no such file"));
 }
 
-TEST_F(GivenReferenceTest, ThatDoesNotSayOfWhatItIsIsRefused) {
-    write({});
-    EXPECT_THAT(refusal(key_), HasSubstr("does not say its scene_sha256"));
-    ImageAttributes attributes = reference_attributes(evaluation_, reference_);
-    attributes["bounce:frame"] = "twelve";
-    write(attributes);
-    EXPECT_THAT(refusal(key_), HasSubstr("its frame is \"twelve\""));
-    std::filesystem::remove(path_);
-    EXPECT_THAT(refusal(key_), HasSubstr("there is no such file"));
+TEST(GivenReference, OfAnotherSceneIsRefused) {
+    const TemporaryFolder folder;
+    Reference reference;
+    reference.image = Image(4, 2);
+    write_image(folder / "ref.exr", reference.image,
+                reference_attributes(reference, "room.blend", "other", 2, 512));
+    EXPECT_THAT(refusal((folder / "ref.exr").string(), 1, 4, 2, 2),
+                HasSubstr("another scene or of another state of it: room.blend"));
+}
+
+TEST(GivenReference, OfAnotherProgramHasNoHeader) {
+    const TemporaryFolder folder;
+    test::write_constant(folder / "a.exr", 0.5F, 4, 2);
+    const Reference read = load_given_reference((folder / "a.exr").string(), 7, 4, 2, 1, "hash");
+    EXPECT_EQ(read.frame, 7);
+    EXPECT_TRUE(std::isnan(read.noise_floor));
+    EXPECT_EQ(given_reference_spp((folder / "a.exr").string(), 7), 0);
+}
+
+TEST(GivenReference, ADamagedOneIsRefused) {
+    const TemporaryFolder folder;
+    test::write_constant(folder / "nan.exr", std::numeric_limits<float>::quiet_NaN(), 4, 2);
+    EXPECT_THAT(refusal((folder / "nan.exr").string(), 1, 4, 2, 1), HasSubstr("not numbers"));
+    write_image(folder / "odd.exr", Image(4, 2), {{"bounce:frame", "one"}});
+    EXPECT_THAT(refusal((folder / "odd.exr").string(), 1, 4, 2, 1), HasSubstr("'one', which is no number"));
 }
 
 }  // namespace

@@ -94,14 +94,16 @@ TEST(ResultsJson, NotANumberBecomesNull) {
 TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
     const std::string csv = results_csv(example());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
-    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,,0.1,,,-0.01,true\n"));
-    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,\n"));
+    EXPECT_THAT(
+        csv,
+        HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,,0.1,,,-0.01,true,false,,,3.04964,30.4964,interpolated\n"));
+    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,\n"));
     // Every row has as many columns as the head.
     const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     size_t start = 0;
     while (start < csv.size()) {
         const size_t end = csv.find('\n', start);
-        EXPECT_EQ(columns(csv.substr(start, end - start)), 10) << csv.substr(start, end - start);
+        EXPECT_EQ(columns(csv.substr(start, end - start)), 16) << csv.substr(start, end - start);
         start = end + 1;
     }
 }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bounce {
+
+// The files that a .glb or .gltf refers to (buffers, images), in the order in which it names them; data URIs
+// are in the file itself. Empty where the file is no glTF: the loader says so when it is opened.
+[[nodiscard]] std::vector<std::filesystem::path> gltf_external_files(const std::filesystem::path& gltf);
+
+// SHA-256 of the scene as the renderer sees it: the file and all files that it refers to. A missing one
+// counts as such. Throws input_error where the scene itself cannot be read.
+[[nodiscard]] std::string sha256_of_gltf(const std::filesystem::path& gltf);
+
+}  // namespace bounce

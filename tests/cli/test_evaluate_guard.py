@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The regression guard: the renderer's errors against stored references have not risen, and a renderer that is broken on
+purpose is caught. An evaluation repeats its errors to the bit; a killed one goes on. Scenes, references and baselines are
+those of scripts/guard."""
+import importlib.machinery
+import importlib.util
+import json
+import math
+import shutil
+import subprocess
+
+import pytest
+from conftest import BINARY, ROOT
+
+
+def script(name):
+    loader = importlib.machinery.SourceFileLoader(name, str(ROOT / "scripts" / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    module.BOUNCE = BINARY
+    return module
+
+
+GUARD = script("guard")
+SCENE = "u_room"  # of the three the fastest; what is not about the scenes is tested on it
+
+
+@pytest.fixture
+def guard(bounce, tmp_path):
+    """The guard's evaluation of a scene, with more options."""
+
+    def run(scene, output, *more, **options):
+        return bounce(*GUARD.command(scene, tmp_path / output, *more)[1:], **options)
+
+    return run
+
+
+def results(folder):
+    return json.loads((folder / "results.json").read_text())
+
+
+def points(folder):
+    return {(curve["name"], point["label"]): point for curve in results(folder)["curves"] for point in curve["points"]}
+
+
+@pytest.mark.parametrize("scene", GUARD.SCENES)
+def test_no_error_has_risen(guard, scene):
+    result = guard(scene, "out", "--baseline", GUARD.DATA / f"{scene}.json")
+    assert result.returncode == 0, result.stderr
+    assert "7 points compared, 0 errors have risen" in result.stdout
+    for word in ("warning", "note:"):  # no point is missing, none is new, and the scene is the baseline's
+        assert word not in result.stderr, result.stderr
+
+
+def test_doubled_light_is_caught(guard, tmp_path):
+    shaders = tmp_path / "shaders"
+    shutil.copytree(ROOT / "shaders", shaders)
+    for name, old, new in script("broken_renderer").DOUBLED_LIGHT:
+        text = (shaders / name).read_text()
+        assert text.count(old) == 1, f"{name}: the defect has to be written anew"
+        (shaders / name).write_text(text.replace(old, new))
+    result = guard(SCENE, "out", "--baseline", GUARD.DATA / f"{SCENE}.json", environment={"BOUNCE_SHADER_DIR": str(shaders)})
+    assert result.returncode == 5, (result.returncode, result.stderr)
+    risen = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
+    assert any(line.startswith("error: Guard, disks: relmse is ") for line in risen), risen
+    assert any(line.startswith("error: Guard, disks: bias is ") for line in risen), risen
+    assert (tmp_path / "out" / "results.json").exists(), "the report is written all the same"
+
+
+def test_a_missing_point_is_named(guard, tmp_path):
+    baseline = json.loads((GUARD.DATA / f"{SCENE}.json").read_text())
+    baseline["curves"][0]["points"].append({"label": "gone", "relmse": 1, "flip_ldr": 1, "bias": 0})
+    del baseline["curves"][0]["points"][0]
+    (tmp_path / "baseline.json").write_text(json.dumps(baseline))
+    result = guard(SCENE, "out", "--baseline", tmp_path / "baseline.json")
+    assert result.returncode == 0, result.stderr
+    assert "Guard, gone: the baseline has this point, the run has not" in result.stderr
+    assert "Guard, direct: the run has this point, the baseline has not" in result.stderr
+
+
+def test_the_same_evaluation_twice(tmp_path, capsys):
+    """Errors are the same to the bit. Whether times lie within the spread that the first run printed is reported."""
+    for name in ("first", "second"):
+        command = GUARD.command(SCENE, tmp_path / name)
+        command[command.index("--repeat") + 1] = "5"
+        subprocess.run(command, check=True, capture_output=True, timeout=120)
+    first, second = points(tmp_path / "first"), points(tmp_path / "second")
+    assert first.keys() == second.keys() and len(first) == 7
+    within = 0
+    for key, point in first.items():
+        for error in ("relmse", "flip_ldr", "bias"):
+            assert point[error] == second[key][error], (key, error)
+        for a, b in zip(point["frames"], second[key]["frames"], strict=True):
+            for error in ("relmse", "relmse_exposed", "flip_ldr", "ssim", "psnr_db", "bias", "not_finite"):
+                assert a[error] == b[error], (key, error)
+        assert point["seconds_least"] <= point["seconds"] <= point["seconds_most"]
+        within += point["seconds_least"] <= second[key]["seconds"] <= point["seconds_most"]
+    with capsys.disabled():
+        print(f"\n{within} of {len(first)} times of the second run lie within the first one's spread")
+
+
+def test_resume_takes_what_is_there(guard, tmp_path):
+    first = guard(SCENE, "out")
+    assert first.returncode == 0, first.stderr
+    before = points(tmp_path / "out")
+    kept = sorted((tmp_path / "out" / "points").iterdir())
+    assert len(kept) == 7
+    (kept[0] / "point.json").unlink()  # as if it had been killed there
+    (kept[1] / "frame.0001.exr").write_bytes(b"half")
+    again = guard(SCENE, "out", "--resume")
+    assert again.returncode == 0, again.stderr
+    assert "5 of 7 points are there already" in again.stderr
+    assert len([line for line in again.stderr.splitlines() if line.startswith("evaluate ")]) == 2
+    after = points(tmp_path / "out")
+    same = [key for key in before if before[key]["seconds"] == after[key]["seconds"]]
+    assert len(same) >= 5
+    for key, point in before.items():
+        assert point["relmse"] == after[key]["relmse"], key
+
+
+def test_the_settings_that_win_are_what_render_takes(guard, bounce, tmp_path):
+    assert guard(SCENE, "out").returncode == 0
+    tuning = json.loads((tmp_path / "out" / "tuning.json").read_text())
+    assert tuning["schema"] == "bounce.tuning/1"
+    best = tuning["budgets"][-1]
+    assert best["budget_ms"] == 10000
+    assert best["relmse"] == min(point["relmse"] for point in points(tmp_path / "out").values())
+    scene = GUARD.DATA / f"{SCENE}.glb"
+    result = bounce("render", scene, "-o", "tuned.exr", "--size", "128x72", "--frames", 1, "--preset", "auto",
+                    "--budget-ms", 10000, "--tuning", "out/tuning.json", "--stats", "tuned.json")
+    assert result.returncode == 0, result.stderr
+    assert f"settings for 10000 ms from out/tuning.json: {' '.join(best['options'])}" in result.stderr
+    compared = bounce("compare", "tuned.exr", GUARD.DATA / f"{SCENE}.0001.exr", "--json", "compared.json")
+    assert compared.returncode == 0, compared.stderr
+    assert math.isclose(json.loads((tmp_path / "compared.json").read_text())["relmse"], best["relmse"], rel_tol=1e-9)
+    # What is typed counts; another size is told.
+    result = bounce("render", scene, "-o", "own.exr", "--size", "16x9", "--frames", 1, "--budget-ms", 10000, "--tuning",
+                    "out/tuning.json", "--vpls", 16, "--interleave", 1, "--stats", "own.json")
+    assert result.returncode == 0, result.stderr
+    assert json.loads((tmp_path / "own.json").read_text())["settings"]["vpls"] == 16
+    assert "was measured at 128x72, this is 16x9" in result.stderr
+
+
+def refused(result, code, *words):
+    assert result.returncode == code, (result.returncode, result.stderr)
+    assert len(result.stderr.splitlines()) == 1, result.stderr
+    for word in words:
+        assert word in result.stderr
+
+
+def test_refusals(guard, bounce, tmp_path):
+    scene = GUARD.DATA / f"{SCENE}.glb"
+    reference = GUARD.DATA / f"{SCENE}.0001.exr"
+
+    def evaluate(*more):
+        return bounce("evaluate", scene, "-o", "out", *more)
+
+    refused(evaluate("--sweep", "colour"), 2, "--sweep colour", "ism-size")
+    refused(evaluate("--sweep", "bounces"), 2, "--bounces 2")
+    refused(evaluate("--reference", reference, "--reference-spp", 64), 2, "--reference-spp")
+    refused(evaluate("--reference", reference, "--frames", "1,2"), 2, "####")
+    refused(evaluate("--reference", reference, "--size", "64x36", "--bounces", 2), 3, "128x72", "64x36")
+    refused(evaluate("--reference", reference, "--size", "128x72"), 3, "2 bounces")
+    refused(evaluate("--reference", reference, "--size", "128x72", "--bounces", 2, "--frames", 7), 3, "frame 1, not of frame 7")
+    refused(evaluate("--reference", tmp_path / "none.exr"), 3, "none.exr")
+    refused(evaluate("--reference", reference, "--baseline", "none.json"), 3, "none.json")
+    refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 33), 2, "--tuning")
+    refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 0, "--tuning", "a.json"), 2, "budget-ms")
+    refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 33, "--tuning", "a.json"), 3, "a.json")
+    result = guard(SCENE, "out", "--baseline", GUARD.DATA / "cornell.json")
+    assert result.returncode == 3, result.stderr
+    assert "the baseline is of cornell.glb" in result.stderr
+
+
+def test_the_table_over_scenes(tmp_path):
+    """Figures by hand: ratios 2 and 8 have the geometric mean 4."""
+    examples = script("evaluate_examples")
+    front = {"points": 3, "compared": 2, "extrapolated": 1, "upper_bounds": 0, "least_ratio": 1.5, "least_curve": "VPLs",
+             "least_label": "64 VPLs"}
+    rows = [examples.row_of({"scene": name, "own_front": {**front, "geometric_mean_ratio": ratio}})
+            for name, ratio in (("a", 2.0), ("b", 8.0), ("c", None))]
+    text = examples.table(rows)
+    assert "geometric mean over 2 scenes: 4\n" in text
+    assert "worst scene: a, 2" in text
+    assert "VPLs, 64 VPLs" in text
+    examples.write_summary(tmp_path / "summary.json", rows)
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert math.isclose(summary["geometric_mean_ratio"], 4.0)
+    assert summary["scenes"][2]["ratio"] is None
