@@ -289,13 +289,14 @@ class Evaluator {
         }
     }
 
-    // Of all runs, or where they are many of those whose pictures the report shows.
+    // Of all runs; where they are many, or held against a given reference alone, of those whose pictures the
+    // report shows.
     void measure_pass_times() {
         const auto shown = shown_points(result_);
         for (size_t i = 0; i < options_.runs.size(); ++i) {
             const PreviewRun& run = options_.runs[i];
             const bool wanted =
-                options_.runs.size() <= k_most_pass_runs ||
+                (needs_cycles() && options_.runs.size() <= k_most_pass_runs) ||
                 std::find(shown.begin(), shown.end(), std::pair{run.name, run.label}) != shown.end();
             if (wanted) {
                 result_.passes.push_back(measure_passes(options_.bounce, gltf_, run, options_.frames.front(),
