@@ -13,6 +13,7 @@
 #include "cli/scene_source.h"
 #include "cli/sweep_options.h"
 #include "core/atomic_file.h"
+#include "core/error.h"
 #include "core/process.h"
 #include "evaluate/evaluation.h"
 #include "evaluate/report.h"
@@ -24,7 +25,8 @@ struct EvaluateArguments {
     EvaluateOptions options;
     std::string frames = "1";
     std::string size = "640x360";
-    std::vector<int> cycles_spp{1, 4, 16, 64};
+    std::vector<int> cycles_spp;
+    std::vector<std::string> peers = known_peers();
     std::filesystem::path output;
     SweepOptions sweep;
 };
@@ -35,10 +37,31 @@ std::vector<int> rising(const std::vector<int>& numbers) {
     return {sorted.begin(), sorted.end()};
 }
 
+// As many as tell something against such a reference: beyond it its own noise is measured.
+std::vector<int> default_cycles_spp(int reference_spp) {
+    std::vector<int> ladder{1, 4, 16, 64, 256};
+    std::erase_if(ladder, [&](int spp) { return spp >= reference_spp; });
+    return ladder;
+}
+
+// Each once; "none" for none of them.
+std::vector<std::string> chosen_peers(const std::vector<std::string>& named) {
+    const std::set<std::string> once(named.begin(), named.end());
+    if (once.contains("none")) {
+        if (once.size() > 1) {
+            throw usage_error("--peers: none stands alone");
+        }
+        return {};
+    }
+    return {once.begin(), once.end()};
+}
+
 ExitCode run_evaluate(const CLI::App& command, EvaluateArguments arguments) {
     EvaluateOptions& options = arguments.options;
     options.frames = rising(parse_frames(arguments.frames));
-    options.cycles_spp = rising(arguments.cycles_spp);
+    options.cycles_spp = arguments.cycles_spp.empty() ? default_cycles_spp(options.reference_spp)
+                                                      : rising(arguments.cycles_spp);
+    options.peers = chosen_peers(arguments.peers);
     if (options.reference_spp < 2 || options.reference_spp % 2 != 0) {
         throw usage_error(
             "--reference-spp: give an even number; the reference is two halves with different seeds");
@@ -48,6 +71,9 @@ ExitCode run_evaluate(const CLI::App& command, EvaluateArguments arguments) {
     options.runs = default_preview_runs(options.bounces);
     options.command = this_command();
     arguments.sweep.apply(command, arguments.output, options);
+    if (!options.given_reference.empty() && options.cycles_spp.empty() && command.count("--peers") == 0) {
+        options.peers.clear();  // they need Blender, which nothing else does then
+    }
     // Before the minutes of rendering, not after.
     require_writable(arguments.output / "results.json");
     const Evaluation evaluation = evaluate(options);
@@ -72,11 +98,25 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--reference-spp", options.reference_spp, "Samples per pixel of the reference")
         ->capture_default_str();
     command
-        ->add_option("--cycles-spp", arguments->cycles_spp,
-                     "Samples per pixel of the points on Cycles' curve")
+        ->add_option(
+            "--cycles-spp", arguments->cycles_spp,
+            "Samples per pixel of the points on Cycles' curve; 1,4,16,64,256 below those of the reference")
         ->delimiter(',')
-        ->check(CLI::Range(1, 1 << 20))
+        ->check(CLI::Range(1, 1 << 20));
+    std::vector<std::string> known = known_peers();
+    known.emplace_back("none");
+    command
+        ->add_option("--peers", arguments->peers, "Engines beside Cycles, where they are installed, or none")
+        ->delimiter(',')
+        ->check(CLI::IsMember(known))
         ->capture_default_str();
+    command
+        ->add_option("--peer-limit", options.peer_limit_seconds,
+                     "Leave out steps of a peer whose frame is expected to take more seconds")
+        ->check(CLI::Range(0.1, 1e6))
+        ->capture_default_str();
+    command->add_flag("--fresh", options.fresh,
+                      "Measure the other engines anew, also what an earlier run has measured here");
     command
         ->add_option("--bounces", options.bounces,
                      "Bounces off surfaces that Cycles renders; Bounce renders as many, up to 4")

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "core/atomic_file.h"
+#include "core/process.h"
 #include "gl/memory.h"
 #include "renderer/setting_names.h"
 
@@ -15,12 +15,6 @@ namespace bounce::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-size_t peak_resident_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<size_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
-}
 
 ordered_json left_out_json(const std::vector<LeftOut>& left_out) {
     ordered_json out = ordered_json::array();

@@ -5,11 +5,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -81,11 +83,26 @@ ProcessResult run_process(const std::vector<std::string>& command,
     close(pipe_ends[0]);
 
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
     }
+    const auto peak = static_cast<size_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
+    result.rss_peak_bytes = peak > peak_resident_bytes() ? peak : 0;
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
+}
+
+size_t peak_resident_bytes() {
+    std::ifstream in("/proc/self/status");
+    std::string word;
+    while (in >> word) {
+        size_t kibibytes = 0;
+        if (word == "VmHWM:" && in >> kibibytes) {
+            return kibibytes * 1024U;
+        }
+    }
+    return 0;
 }
 
 std::optional<fs::path> find_program(std::string_view name) {

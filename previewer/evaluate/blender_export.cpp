@@ -43,6 +43,9 @@ std::string list_files_expression(const fs::path& output) {
 
 // The line that says why, out of all that Blender printed.
 std::string reason_in(const std::string& output) {
+    if (output.find("No module named 'numpy'") != std::string::npos) {
+        return "its Python lacks numpy; install Debian's package python3-numpy";
+    }
     std::string last_error;
     size_t start = 0;
     while (start < output.size()) {
@@ -82,7 +85,7 @@ void export_blend(const fs::path& blend, const fs::path& blender, const fs::path
         throw input_error(fmt::format("Blender did not list the files that {} refers to", blend.string()));
     }
     output.commit();
-    write_file_hashes(record, hash_files(paths.get<std::vector<fs::path>>()));
+    write_file_hashes(record, hash_files(paths.get<std::vector<fs::path>>()), result.seconds);
 }
 
 }  // namespace
@@ -97,11 +100,10 @@ fs::path find_blender(const fs::path& wanted) {
     if (!wanted.empty()) {
         throw Error(ExitCode::failed, fmt::format("--blender {}: there is no such program", name));
     }
-    throw Error(
-        ExitCode::failed,
-        from_variable
-            ? fmt::format("$BLENDER is {}, but there is no such program", name)
-            : "Blender was not found on PATH; install it, or give its path with --blender or $BLENDER");
+    throw Error(ExitCode::failed, from_variable
+                                      ? fmt::format("$BLENDER is {}, but there is no such program", name)
+                                      : "Blender was not found on PATH; install Debian's package blender, or "
+                                        "give its path with --blender or $BLENDER");
 }
 
 fs::path find_addon() {
@@ -127,7 +129,7 @@ fs::path find_addon() {
 
 ResolvedScene resolve_scene(const fs::path& scene, const SceneSourceOptions& options) {
     if (!is_blend(scene)) {
-        return {scene, scene};
+        return {scene, scene, 0.0};
     }
     std::error_code ignored;
     if (!fs::is_regular_file(scene, ignored)) {
@@ -146,10 +148,10 @@ ResolvedScene resolve_scene(const fs::path& scene, const SceneSourceOptions& opt
     const fs::path record = fs::path(target).replace_extension(".json");
     if (fs::is_regular_file(target, ignored) && files_unchanged(record)) {
         log::debug("{} was exported before: {}", scene.string(), target.string());
-        return {target, scene};
+        return {target, scene, recorded_seconds(record)};
     }
     export_blend(scene, blender, addon, target, record);
-    return {target, scene};
+    return {target, scene, recorded_seconds(record)};
 }
 
 }  // namespace bounce

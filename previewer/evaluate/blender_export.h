@@ -13,6 +13,7 @@ struct SceneSourceOptions {
 struct ResolvedScene {
     std::filesystem::path gltf;      // what to load: .glb or .gltf
     std::filesystem::path original;  // as the user named it
+    double export_seconds = 0.0;     // Blender's, now or when it was exported; 0 where nothing was
     [[nodiscard]] bool exported() const { return gltf != original; }
 };
 

@@ -37,12 +37,31 @@ std::vector<FileHash> hash_files(const std::vector<fs::path>& files) {
     return hashes;
 }
 
-void write_file_hashes(const fs::path& record, const std::vector<FileHash>& hashes) {
+void write_file_hashes(const fs::path& record, const std::vector<FileHash>& hashes, double seconds) {
     nlohmann::json files = nlohmann::json::object();
     for (const auto& [path, hash] : hashes) {
         files[path.string()] = hash;
     }
-    write_text_file(record, nlohmann::json{{"files", files}}.dump(2) + "\n");
+    write_text_file(record, nlohmann::json{{"files", files}, {"seconds", seconds}}.dump(2) + "\n");
+}
+
+double recorded_seconds(const fs::path& record) {
+    std::ifstream in(record);
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    const bool told = json.is_object() && json.contains("seconds") && json["seconds"].is_number();
+    return told ? json["seconds"].get<double>() : 0.0;
+}
+
+std::vector<fs::path> recorded_files(const fs::path& record) {
+    std::ifstream in(record);
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    std::vector<fs::path> files;
+    if (json.is_object() && json.contains("files") && json["files"].is_object()) {
+        for (const auto& [path, hash] : json["files"].items()) {
+            files.emplace_back(path);
+        }
+    }
+    return files;
 }
 
 bool files_unchanged(const fs::path& record) {

@@ -109,7 +109,7 @@ std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves) {
     }
     std::vector<Speedup> speedups;
     for (const Curve& curve : curves) {
-        if (curve.reference_engine) {
+        if (curve.reference_engine || curve.peer) {
             continue;
         }
         for (const CurvePoint& point : curve.points) {

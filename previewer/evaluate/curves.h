@@ -3,6 +3,7 @@
 // Error against run time as plain data, and what follows from it. No files, no processes.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -36,6 +37,9 @@ struct CurvePoint {
     double flip_ldr = 0.0;
     double bias = 0.0;
     bool pareto = false;
+    size_t rss_peak_bytes = 0;  // of the process; 0 where not known
+    size_t gl_peak_bytes = 0;   // of buffers and textures in OpenGL; 0 where not known
+    std::string measured;       // when, where an earlier run has measured it; else empty
     std::vector<FrameError> frames;
     // Means of the frames' least and most; NaN where not known.
     double seconds_least = std::numeric_limits<double>::quiet_NaN();
@@ -48,6 +52,7 @@ struct Curve {
     std::string name;
     bool reference_engine = false;  // the ladder that others are measured against
     std::vector<CurvePoint> points;
+    bool peer = false;  // another engine than Bounce and the reference's
 };
 
 // A point from its frames: arithmetic means. Needs at least one frame.
@@ -87,7 +92,7 @@ struct Speedup {
     EqualErrorKind kind = EqualErrorKind::interpolated;
 };
 
-// Every point of the other curves against the ladder of the reference engine.
+// Every point of Bounce's curves against the ladder of the reference engine.
 [[nodiscard]] std::vector<Speedup> speedups_at_equal_error(const std::vector<Curve>& curves);
 
 // One scene in a line: the front of Bounce's own points against Cycles. Bounce's own, because on the common

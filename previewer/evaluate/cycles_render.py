@@ -9,7 +9,8 @@ Each output is a scene-linear EXR of 32-bit floats. What happens is told on stdo
     {event: "ready", version, threads, files, view}        the scene is open; files: what it refers to
     {event: "begin"}                                       a render starts; Cycles prints "Sample 0/N" after its set-up
     {event: "warm_up", frame, seconds}                     the first render of a frame, one sample
-    {event: "render", frame, spp, seed, seconds, output}   a later render of the same frame; median of `repeat`
+    {event: "render", frame, spp, seed, seconds, output, rss_peak_bytes}   a later render of the same frame; median of
+                                                           `repeat`; the process's largest resident memory so far
     {event: "note", message}                               something about the scene that was changed
     {event: "error", message}
 """
@@ -107,9 +108,25 @@ def timed_render():
     return seconds
 
 
-def render_frame(scene, frame, renders):
+def peak_memory():
+    """The largest resident memory of this process so far, in bytes; 0 where the system does not tell."""
+    try:
+        lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    except OSError:
+        return 0
+    return next((int(line.split()[1]) * 1024 for line in lines if line.startswith("VmHWM:")), 0)
+
+
+def frame_of(scene, imported, frame):
+    """Sets the scene to Bounce's frame; returns Blender's number of it."""
+    if imported is not None:
+        frame = imported.apply(frame)
     whole = int(frame // 1)
     scene.frame_set(whole, subframe=frame - whole)
+    return frame
+
+
+def render_frame(scene, frame, renders):
     scene.cycles.samples = 1
     scene.cycles.seed = 0
     tell("warm_up", frame=frame, seconds=timed_render())
@@ -118,7 +135,8 @@ def render_frame(scene, frame, renders):
         scene.cycles.seed = item["seed"]
         seconds = statistics.median(timed_render() for _ in range(item["repeat"]))
         bpy.data.images["Render Result"].save_render(item["output"], scene=scene)
-        tell("render", frame=frame, spp=item["spp"], seed=item["seed"], seconds=seconds, output=item["output"])
+        tell("render", frame=frame, spp=item["spp"], seed=item["seed"], seconds=seconds, output=item["output"],
+             rss_peak_bytes=peak_memory())
 
 
 def open_scene(job):
@@ -147,10 +165,7 @@ def main():
          view={"display_device": scene.display_settings.display_device, "view_transform": view.view_transform,
                "look": view.look, "exposure": view.exposure, "gamma": view.gamma})
     for item in job["frames"]:
-        frame = item["frame"]
-        if imported is not None:
-            frame = imported.apply(frame)
-        render_frame(scene, frame, item["renders"])
+        render_frame(scene, frame_of(scene, imported, item["frame"]), item["renders"])
 
 
 def sentence(error):

@@ -48,7 +48,8 @@ json job_to_json(const CyclesJob& job) {
 // Reads the lines that Blender prints while it works through a job.
 class Listener {
   public:
-    Listener(const CyclesJob& job, const std::function<void(const CyclesRender&)>& on_render)
+    Listener(const CyclesJob& job,
+             const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render)
         : on_render_(on_render) {
         report_.renders = job.renders;
     }
@@ -88,11 +89,12 @@ class Listener {
         } else if (kind == "render" && done_ < report_.renders.size()) {
             CyclesRender& render = report_.renders[done_++];
             render.seconds = event.at("seconds");
+            render.rss_peak_bytes = event.value("rss_peak_bytes", size_t{0});
             if (sampling_started_) {
                 render.setup_seconds = std::chrono::duration<double>(*sampling_started_ - begin_).count();
             }
             if (on_render_) {
-                on_render_(render);
+                on_render_(render, report_);
             }
         } else if (kind == "note") {
             report_.notes.push_back(event.at("message"));
@@ -111,7 +113,7 @@ class Listener {
                         view.at("exposure"), view.at("gamma")};
     }
 
-    const std::function<void(const CyclesRender&)>& on_render_;
+    const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render_;
     CyclesReport report_;
     size_t done_ = 0;
     std::optional<std::string> error_;
@@ -120,20 +122,10 @@ class Listener {
     std::optional<Clock::time_point> sampling_started_;
 };
 
-std::string last_line(const std::string& output) {
-    const size_t end = output.find_last_not_of("\r\n ");
-    if (end == std::string::npos) {
-        return "it printed nothing";
-    }
-    const size_t start = output.find_last_of("\r\n", end);
-    return output.substr(start == std::string::npos ? 0 : start + 1,
-                         end - (start == std::string::npos ? 0 : start));
-}
-
 }  // namespace
 
 CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
-                        const std::function<void(const CyclesRender&)>& on_render) {
+                        const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render) {
     const ScratchFolder scratch;
     const bool blend = job.scene.extension() == ".blend";
     json description = job_to_json(job);
@@ -161,6 +153,16 @@ CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
                                                         result.exit_code, last_line(result.output))));
     }
     return listener.take();
+}
+
+std::string last_line(const std::string& output) {
+    const size_t end = output.find_last_not_of("\r\n ");
+    if (end == std::string::npos) {
+        return "it printed nothing";
+    }
+    const size_t start = output.find_last_of("\r\n", end);
+    return output.substr(start == std::string::npos ? 0 : start + 1,
+                         end - (start == std::string::npos ? 0 : start));
 }
 
 std::string blender_version(const fs::path& blender) {

@@ -20,6 +20,8 @@ struct CyclesRender {
     std::filesystem::path output;  // a scene-linear EXR of 32-bit floats is written here
     double seconds = 0.0;        // of one render in steady state: a later render of a frame already rendered
     double setup_seconds = 0.0;  // of those, until the first sample starts: scene transfer and BVH
+    size_t rss_peak_bytes = 0;   // of Blender until then
+    std::string measured;        // when, where it comes from an earlier run; else empty
 };
 
 struct CyclesJob {
@@ -44,13 +46,17 @@ struct CyclesReport {
 // Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
 // `bounces` bounces, diffuse or glossy, no clamping, no denoiser, no adaptive sampling; pixel
 // filter Blackman-Harris, width 1.5 (evaluate/cycles_render.py says how each is set). on_render is called
-// after each picture. Throws input_error where Blender cannot render the scene.
-[[nodiscard]] CyclesReport run_cycles(const CyclesJob& job, const std::filesystem::path& blender,
-                                      const std::function<void(const CyclesRender&)>& on_render = {});
+// after each picture, with what is known so far. Throws input_error where Blender cannot render the scene.
+[[nodiscard]] CyclesReport run_cycles(
+    const CyclesJob& job, const std::filesystem::path& blender,
+    const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});
 
 // First line of `blender --version` and its build hash; names the engine in cache keys. Throws Error
 // (failed) where the program does not answer like Blender.
 [[nodiscard]] std::string blender_version(const std::filesystem::path& blender);
+
+// The last line of what a program printed, for a sentence about its failure.
+[[nodiscard]] std::string last_line(const std::string& output);
 
 // Hash of the scripts that render: a changed setting in them makes other references.
 [[nodiscard]] std::string cycles_scripts_hash();

@@ -11,6 +11,8 @@
 #include "evaluate/curves.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/machine.h"
+#include "evaluate/pass_times.h"
+#include "evaluate/peers.h"
 #include "evaluate/preview_run.h"
 #include "evaluate/reference.h"
 #include "image/image.h"
@@ -31,13 +33,25 @@ struct EvaluateOptions {
     std::vector<PreviewRun> runs;
     std::string command;  // as typed, for the report
     // Image files for the reference, #### for the frame's number; empty: Cycles renders it. With it and no
-    // cycles_spp Blender is not needed.
+    // cycles_spp and no peers Blender is not needed.
     std::string given_reference;
     // How often all runs are measured, one after the other: what changes on the machine meanwhile shows in
     // the spread.
     int rounds = 1;
     std::filesystem::path point_folder;  // measured runs are kept here; empty: nowhere
     bool resume = false;                 // runs that are kept there are not measured again
+    std::vector<std::string> peers;      // of known_peers()
+    double peer_limit_seconds = 60.0;
+    bool fresh = false;  // measure the other engines anew; references are kept all the same
+};
+
+// What comes before the frames that count, of one engine. 0: not known, or there is no such step.
+struct StartUp {
+    std::string engine;
+    double export_seconds = 0.0;
+    double load_seconds = 0.0;
+    double first_render_seconds = 0.0;
+    std::string note;  // what the figures hold
 };
 
 // One frame drawn one way, for the report's pictures.
@@ -50,6 +64,7 @@ struct Picture {
 
 struct Evaluation {
     std::string scene;            // file name
+    std::string scene_hash;       // of its content
     std::string scene_sha256;     // of what the renderer loads: the .glb, also where a .blend was given
     std::string given_reference;  // as in the options
     std::string command;
@@ -68,6 +83,9 @@ struct Evaluation {
     std::vector<Speedup> speedups;
     FrontSummary front;
     std::vector<Picture> pictures;
+    std::vector<PeerResult> peers;  // what they were set to, and what is missing; their points are in curves
+    std::vector<PassTimes> passes;
+    std::vector<StartUp> startups;
 };
 
 // Throws input_error where the scene cannot be rendered, Error where a program fails.

@@ -15,6 +15,8 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* k_scene = "bounce:scene";
+constexpr const char* k_scene_hash = "bounce:scene_hash";
 constexpr const char* k_frame = "bounce:frame";
 constexpr const char* k_bounces = "bounce:bounces";
 constexpr const char* k_noise_floor = "bounce:noise_floor_relmse";
@@ -47,9 +49,10 @@ std::optional<T> number(const ImageAttributes& attributes, const char* name, con
 
 }  // namespace
 
-ImageAttributes reference_attributes(const Reference& reference, const std::string& scene, int bounces,
-                                     int spp) {
-    ImageAttributes attributes{{"bounce:scene", scene},
+ImageAttributes reference_attributes(const Reference& reference, const std::string& scene,
+                                     const std::string& scene_hash, int bounces, int spp) {
+    ImageAttributes attributes{{k_scene, scene},
+                               {k_scene_hash, scene_hash},
                                {k_frame, std::to_string(reference.frame)},
                                {k_bounces, std::to_string(bounces)},
                                {k_seconds, fmt::format("{}", reference.seconds)}};
@@ -62,7 +65,8 @@ ImageAttributes reference_attributes(const Reference& reference, const std::stri
     return attributes;
 }
 
-Reference load_given_reference(const std::string& name, int frame, int width, int height, int bounces) {
+Reference load_given_reference(const std::string& name, int frame, int width, int height, int bounces,
+                               const std::string& scene_hash) {
     const fs::path path = path_of(name, frame);
     Reference reference;
     reference.frame = frame;
@@ -74,6 +78,11 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
                                       height, reference.image.width, reference.image.height));
     }
     const ImageAttributes header = read_attributes(path);
+    if (const auto of = header.find(k_scene_hash); of != header.end() && of->second != scene_hash) {
+        const auto scene = header.find(k_scene);
+        throw input_error(fmt::format("the reference {} is of another scene or of another state of it: {}",
+                                      path.string(), scene == header.end() ? "unnamed" : scene->second));
+    }
     if (const auto of = number<int>(header, k_frame, path); of && *of != frame) {
         throw input_error(
             fmt::format("the reference {} is of frame {}, not of frame {}", path.string(), *of, frame));

@@ -72,6 +72,9 @@ PreviewResult read_stats(const fs::path& stats, const std::vector<int>& frames, 
     result.gl_vendor = gl.value("vendor", "");
     result.gl_renderer = gl.value("renderer", "");
     result.gl_version = gl.value("version", "");
+    const auto memory = json.value("memory", nlohmann::json::object());
+    result.rss_peak_bytes = memory.value("rss_peak_bytes", size_t{0});
+    result.gl_peak_bytes = memory.value("gl_peak_bytes", size_t{0});
     result.startup_seconds = std::max(process_seconds - rendering, 0.0);
     return result;
 }

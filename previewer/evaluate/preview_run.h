@@ -30,6 +30,8 @@ struct PreviewResult {
     std::vector<PreviewFrame> frames;
     double startup_seconds = 0.0;  // the process's time outside the repeated renders
     std::string gl_vendor, gl_renderer, gl_version;
+    size_t rss_peak_bytes = 0;
+    size_t gl_peak_bytes = 0;
 };
 
 // Renders the frames with the program's own `render` command in a process of its own, and reads its

@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.h"
 #include "evaluate/given_reference.h"
+#include "evaluate/report_details.h"
 #include "image/image_io.h"
 
 namespace bounce {
@@ -82,6 +83,9 @@ ordered_json point_json(const CurvePoint& point) {
             {"pareto", point.pareto},
             {"setup_seconds", number(point.setup_seconds)},
             {"startup_seconds", number(point.startup_seconds)},
+            {"rss_peak_bytes", point.rss_peak_bytes},
+            {"gl_peak_bytes", point.gl_peak_bytes},
+            {"measured", point.measured},
             {"seconds_least", number(point.seconds_least)},
             {"seconds_most", number(point.seconds_most)},
             {"own_front", point.own_front},
@@ -148,8 +152,10 @@ ordered_json results_json(const Evaluation& evaluation) {
         for (const CurvePoint& point : curve.points) {
             points.push_back(point_json(point));
         }
-        curves.push_back(
-            {{"name", curve.name}, {"reference_engine", curve.reference_engine}, {"points", points}});
+        curves.push_back({{"name", curve.name},
+                          {"reference_engine", curve.reference_engine},
+                          {"peer", curve.peer},
+                          {"points", points}});
     }
     ordered_json speedups = ordered_json::array();
     for (const Speedup& speedup : evaluation.speedups) {
@@ -182,6 +188,9 @@ ordered_json results_json(const Evaluation& evaluation) {
             {"blender", evaluation.blender},
             {"view", {{"transform", view.view_transform}, {"look", view.look}, {"exposure", view.exposure}}},
             {"notes", evaluation.cycles.notes},
+            {"peers", peers_json(evaluation)},
+            {"startup", startup_json(evaluation)},
+            {"passes", passes_json(evaluation)},
             {"command", evaluation.command},
             {"date", evaluation.date}};
 }
@@ -211,7 +220,7 @@ std::string results_csv(const Evaluation& evaluation) {
 
 std::string results_table(const Evaluation& evaluation) {
     // Spread: from the fastest to the slowest of the repeated renders, as parts of the median.
-    std::string table = fmt::format("{:<22}{:<14}{:>11}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point",
+    std::string table = fmt::format("{:<22}{:<18}{:>11}{:>11}{:>12}{:>9}{:>9}  {}\n", "curve", "point",
                                     "s/frame", "spread", "relMSE", "FLIP", "bias", "time to equal error");
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
@@ -225,7 +234,7 @@ std::string results_table(const Evaluation& evaluation) {
                                     speedup->cycles_seconds, at_most ? "<= " : "", speedup->ratio,
                                     speedup->kind == EqualErrorKind::extrapolated ? " (extrapolated)" : "");
             }
-            table += fmt::format("{:<22}{:<14}{:>11.4f}{:>11}{:>12.3g}{:>9.4f}{:>+8.2f}% {}{}\n", curve.name,
+            table += fmt::format("{:<22}{:<18}{:>11.4f}{:>11}{:>12.3g}{:>9.4f}{:>+8.2f}% {}{}\n", curve.name,
                                  point.label, point.seconds, spread_text(point), point.relmse, point.flip_ldr,
                                  100.0 * point.bias, point.pareto ? "* " : "  ", equal);
         }
@@ -276,9 +285,9 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
         return ImageAttributes{{"bounce:scene", evaluation.scene}, {"bounce:frame", std::to_string(frame)}};
     };
     for (const Reference& reference : evaluation.references) {
-        write_image(
-            folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
-            reference_attributes(reference, evaluation.scene, evaluation.bounces, evaluation.reference_spp));
+        write_image(folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
+                    reference_attributes(reference, evaluation.scene, evaluation.scene_hash,
+                                         evaluation.bounces, evaluation.reference_spp));
     }
     for (const Picture& picture : evaluation.pictures) {
         if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {

@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills the page of `bounce evaluate` from the two JSON elements in it.
+// Fills the page of `bounce evaluate` from the two JSON elements in it: head, tables and facts. What the other scripts of
+// the page share is in `report`.
 "use strict";
-(() => {
+const report = (() => {
   const results = JSON.parse(document.getElementById("results").textContent);
   const pictures = JSON.parse(document.getElementById("pictures").textContent);
   const byId = (id) => document.getElementById(id);
 
-  // Told apart by people who see red and green alike (Okabe and Ito, 2008), Cycles in grey.
-  const palette = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"];
-  const shapes = ["triangle", "circle", "rect", "rectRot", "star"];
-  const colors = new Map();
-  const markers = new Map();
-  let next = 0;
-  for (const curve of results.curves) {
-    colors.set(curve.name, curve.reference_engine ? "#4a5563" : palette[next % palette.length]);
-    markers.set(curve.name, curve.reference_engine ? "crossRot" : shapes[next % shapes.length]);
-    if (!curve.reference_engine) next += 1;
-  }
+  // Told apart by people who see red and green alike (Okabe and Ito, 2008); Cycles in grey, brighter where it is dark.
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const own = { light: ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#6a51a3"],
+    dark: ["#ff8a3d", "#56b4e9", "#2cc79a", "#e29cc4", "#f0b840", "#a899e6"] };
+  const others = { light: ["#7a5c3e", "#3f7f8c", "#8a4f6d"], dark: ["#c9a57f", "#7fc3d0", "#cf93b3"] };
+  const grey = { light: "#4a5563", dark: "#b4bfcc" };
+  const shapes = ["triangle", "circle", "rect", "rectRot", "star", "rectRounded"];
+  const scheme = () => (dark.matches ? "dark" : "light");
+  // Of each kind of curve its place among those of its kind; Bounce's last is its most complete one and comes first.
+  const place = new Map();
+  const ownCurves = results.curves.filter((curve) => !curve.reference_engine && !curve.peer).reverse();
+  ownCurves.forEach((curve, index) => place.set(curve.name, index));
+  results.curves.filter((curve) => curve.peer).forEach((curve, index) => place.set(curve.name, index));
+  const colorOf = (curve) => {
+    if (curve.reference_engine) return grey[scheme()];
+    const palette = (curve.peer ? others : own)[scheme()];
+    return palette[place.get(curve.name) % palette.length];
+  };
+  const shapeOf = (curve) =>
+    curve.reference_engine ? "crossRot" : shapes[place.get(curve.name) % shapes.length];
+  const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   const digits = (value, count) => (value === null ? "not a number" : Number(value.toPrecision(count)).toString());
   const scientific = (value) => {
@@ -30,19 +41,34 @@
   };
   const percent = (value) =>
     value === null ? "not a number" : `${value >= 0 ? "+" : "−"}${Math.abs(value * 100).toFixed(2)} %`;
+  const bytes = (value) => (value > 0 ? `${digits(value / 2 ** 20, 3)} MiB` : "–");
   const element = (name, text, parent) => {
     const made = document.createElement(name);
     made.textContent = text;
     if (parent) parent.append(made);
     return made;
   };
+  // Buttons of which one is pressed; act is called with its number, at first with that of `pressed`.
+  const tabs = (parent, texts, pressed, act) => {
+    const press = (index) => {
+      [...parent.children].forEach((button, at) => button.setAttribute("aria-pressed", at === index));
+      act(index);
+    };
+    texts.forEach((text, index) => {
+      const button = element("button", text, parent);
+      button.type = "button";
+      button.addEventListener("click", () => press(index));
+    });
+    press(pressed);
+  };
+  const onSchemeChange = (act) => dark.addEventListener("change", act);
 
   // ---- head ----
   document.title = `${results.scene}: error against run time`;
   byId("title").textContent = `${results.scene}: error against run time`;
   byId("subtitle").textContent =
     `${results.width} × ${results.height}, ${results.frames.length > 1 ? "frames" : "frame"} ` +
-    `${results.frames.join(", ")} · ${results.date.slice(0, 10)}`;
+    `${results.frames.join(", ")} · ${results.gl.renderer || results.machine.cpu} · ${results.date.slice(0, 10)}`;
 
   const card = (value, text) => {
     const box = document.createElement("div");
@@ -51,12 +77,11 @@
     element("span", text, box);
     byId("cards").append(box);
   };
-  const own = results.curves.filter((curve) => !curve.reference_engine)
-    .flatMap((curve) => curve.points.map((point) => ({ ...point, curve: curve.name })))
+  const points = ownCurves.flatMap((curve) => curve.points.map((point) => ({ ...point, curve: curve.name })))
     .filter((point) => point.relmse !== null && point.seconds !== null);
   // What one would use: of the points within a tenth of the smallest error, the fastest.
-  const smallest = Math.min(...own.map((point) => point.relmse));
-  const best = own.filter((point) => point.relmse <= 1.1 * smallest)
+  const smallest = Math.min(...points.map((point) => point.relmse));
+  const best = points.filter((point) => point.relmse <= 1.1 * smallest)
     .reduce((a, b) => (!a || b.seconds < a.seconds ? b : a), null);
   const speedupOf = (curve, label) =>
     results.speedup_at_equal_error.find((item) => item.curve === curve && item.label === label);
@@ -71,180 +96,113 @@
     card(time(best.seconds), `a frame: ${best.curve}, ${best.label}, the fastest within 10 % of the smallest error`);
     card(scientific(best.relmse), `its relMSE, with a bias of ${percent(best.bias)} and FLIP ${digits(best.flip_ldr, 3)}`);
   }
-  card(scientific(results.reference.noise_floor_relmse),
-    `relMSE of the reference's own noise: Cycles ${results.reference.version}, ${results.reference.spp} spp, ` +
-    `${time(results.reference.seconds)} a frame`);
+  // A reference from files may not say how it was made.
+  const given = results.reference.engine !== "Cycles (CPU)";
+  const spp = results.reference.spp > 0 ? `, ${results.reference.spp} spp` : "";
+  const referenceText = given ? `${results.reference.engine}${spp}`
+    : `Cycles ${results.reference.version}${spp}, ${time(results.reference.seconds)} a frame`;
+  card(results.reference.noise_floor_relmse === null ? "not known" : scientific(results.reference.noise_floor_relmse),
+    `relMSE of the reference's own noise: ${referenceText}` +
+    (best && results.reference.noise_floor_relmse !== null && best.relmse < 3 * results.reference.noise_floor_relmse
+      ? "; the smallest errors here are near it, and a longer reference would tell them apart" : ""));
 
-  // ---- chart ----
-  const tick = (value) => {
-    const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-    return [1, 2, 5].some((known) => Math.abs(mantissa - known) < 1e-6) ? digits(value, 1) : "";
-  };
-  const datasets = results.curves.map((curve) => ({
-    label: curve.name,
-    data: curve.points.filter((point) => point.relmse > 0 && point.seconds > 0)
-      .map((point) => ({ x: point.seconds, y: point.relmse, point })),
-    showLine: true,
-    borderColor: colors.get(curve.name),
-    backgroundColor: colors.get(curve.name),
-    pointStyle: markers.get(curve.name),
-    borderWidth: 2,
-    pointRadius: 6,
-    pointHoverRadius: 8,
-  }));
-  const all = datasets.flatMap((dataset) => dataset.data);
-  const floor = results.reference.noise_floor_relmse;
-  const span = (values) => [Math.min(...values) / 1.6, Math.max(...values) * 1.6];
-  const [minX, maxX] = span(all.map((item) => item.x));
-  const [minY, maxY] = span(all.map((item) => item.y).concat(floor > 0 ? [floor] : []));
-  if (floor > 0) {
-    datasets.push({ label: "Noise of the reference", data: [{ x: minX, y: floor }, { x: maxX, y: floor }],
-      showLine: true, borderDash: [6, 5], borderColor: "#9aa3ad", backgroundColor: "#9aa3ad", borderWidth: 1.5,
-      pointRadius: 0, pointHitRadius: 0, pointStyle: "line" });
-  }
-  const rings = {
-    id: "rings",
-    afterDatasetsDraw(chart) {
-      chart.data.datasets.forEach((dataset, index) => {
-        if (!chart.isDatasetVisible(index)) return;
-        chart.getDatasetMeta(index).data.forEach((mark, at) => {
-          if (!(dataset.data[at].point && dataset.data[at].point.pareto)) return;
-          chart.ctx.save();
-          chart.ctx.strokeStyle = dataset.borderColor;
-          chart.ctx.lineWidth = 1.5;
-          chart.ctx.beginPath();
-          chart.ctx.arc(mark.x, mark.y, 11, 0, 2 * Math.PI);
-          chart.ctx.stroke();
-          chart.ctx.restore();
-        });
-      });
-    },
-  };
-  const axis = (text, min, max) => ({ type: "logarithmic", min, max, grid: { color: "#eceff2" },
-    title: { display: true, text, color: "#5c6773", font: { size: 13 } },
-    ticks: { callback: tick, color: "#5c6773", autoSkip: false, maxRotation: 0 } });
-  Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
-  new Chart(byId("chart"), {
-    type: "scatter",
-    data: { datasets },
-    plugins: [rings],
-    options: {
-      animation: false,
-      maintainAspectRatio: false,
-      interaction: { mode: "nearest", intersect: true },
-      scales: { x: axis("seconds a frame", minX, maxX), y: axis("relMSE", minY, maxY) },
-      plugins: {
-        legend: { position: "bottom", labels: { usePointStyle: true, padding: 18, color: "#1c2430" } },
-        tooltip: {
-          filter: (item) => Boolean(item.raw.point),
-          callbacks: {
-            title: (items) => items.map((item) => `${item.dataset.label}, ${item.raw.point.label}`),
-            label: (item) => {
-              const point = item.raw.point;
-              return [`${time(point.seconds)} a frame`, `relMSE ${scientific(point.relmse)}`,
-                `FLIP ${digits(point.flip_ldr, 3)}`, `bias ${percent(point.bias)}`];
-            },
-          },
-        },
-      },
-    },
-  });
-
-  // ---- frames ----
-  const view = results.view;
-  byId("frames-note").textContent = `Shown through ${view.transform}` +
-    `${view.look && view.look !== "None" ? ` (${view.look})` : ""}` +
-    `${view.exposure ? `, ${view.exposure} stops` : ""}. Of each way of rendering the most exact point; of Cycles the ` +
-    "one whose time is nearest. Click a picture for its pixels.";
-  const shown = { frame: 0, preview: 0 };
-  const buttons = (parent, texts, key) => texts.forEach((text, index) => {
-    const button = element("button", text, parent);
-    button.type = "button";
-    button.addEventListener("click", () => { shown[key] = index; show(); });
-  });
-  const show = () => {
-    const frame = pictures[shown.frame];
-    const preview = frame.previews[shown.preview];
-    const point = results.curves.find((curve) => curve.name === preview.curve)
-      .points.find((item) => item.label === preview.label).frames.find((item) => item.frame === frame.frame);
-    const reference = results.reference.frames[shown.frame];
-    byId("preview").src = preview.image;
-    byId("preview").alt = `${preview.curve}, ${preview.label}`;
-    byId("preview-caption").textContent = `${preview.curve}, ${preview.label}: ${time(point.seconds)}, ` +
-      `relMSE ${scientific(point.relmse)}, bias ${percent(point.bias)}`;
-    byId("reference").src = frame.reference;
-    byId("reference").alt = "Reference";
-    byId("reference-caption").textContent =
-      `Reference: Cycles, ${results.reference.spp} spp, ${time(reference.seconds)}`;
-    byId("difference").src = preview.difference;
-    byId("difference").alt = "Difference";
-    for (const [id, key] of [["frame-tabs", "frame"], ["preview-tabs", "preview"]]) {
-      [...byId(id).children].forEach((button, index) => button.setAttribute("aria-pressed", index === shown[key]));
+  // ---- table of all points ----
+  const fillPoints = () => {
+    const table = byId("points");
+    table.replaceChildren();
+    const head = table.createTHead().insertRow();
+    for (const text of ["curve", "point", "time a frame", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio",
+      "process", "OpenGL"]) {
+      element("th", text, head);
+    }
+    const body = table.createTBody();
+    for (const curve of results.curves) {
+      for (const point of curve.points) {
+        const row = body.insertRow();
+        if (point.pareto) row.className = "front";
+        const name = row.insertCell();
+        const swatch = element("span", "", name);
+        swatch.className = "swatch";
+        swatch.style.background = colorOf(curve);
+        name.append(curve.name);
+        const speedup = speedupOf(curve.name, point.label);
+        const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
+          : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
+        for (const text of [point.label, `${time(point.seconds)}${point.measured ? " †" : ""}`, scientific(point.relmse),
+          digits(point.flip_ldr, 3), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
+          bytes(point.rss_peak_bytes), bytes(point.gl_peak_bytes)]) {
+          row.insertCell().textContent = text;
+        }
+      }
     }
   };
-  if (pictures.length > 0 && pictures[0].previews.length > 0) {
-    buttons(byId("frame-tabs"), pictures.map((item) => `Frame ${item.frame}`), "frame");
-    buttons(byId("preview-tabs"), pictures[0].previews.map((item) => item.curve), "preview");
-    show();
+  fillPoints();
+  onSchemeChange(fillPoints);
+  const all = results.curves.flatMap((curve) => curve.points);
+  const remarks = ["Process: the largest resident memory. Of Cycles and Eevee it is Blender's, up to that point. " +
+    "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
+  if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
+    remarks.push("* Beyond Cycles' last point, along its last segment.");
   }
-  const zoom = byId("zoom");
-  for (const image of document.querySelectorAll("figure img")) {
-    image.addEventListener("click", () => { zoom.firstElementChild.src = image.src; zoom.showModal(); });
-  }
-  zoom.addEventListener("click", () => zoom.close());
+  const dates = [...new Set(all.filter((point) => point.measured).map((point) => point.measured.slice(0, 10)))];
+  if (dates.length) remarks.push(`† Measured on this machine by an earlier run (${dates.join(", ")}), not in this one.`);
+  const remark = element("p", remarks.join(" "), byId("points").parentElement.parentElement);
+  remark.className = "soft";
+  remark.style.fontSize = "13px";
 
-  // ---- table ----
-  const table = byId("points");
-  const head = table.createTHead().insertRow();
-  for (const text of ["curve", "point", "time a frame", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio"]) {
-    element("th", text, head);
+  // ---- before the first frame ----
+  const startup = byId("startup");
+  const startupHead = startup.createTHead().insertRow();
+  for (const text of ["engine", "export", "start and load", "first render", "what the figures hold"]) {
+    element("th", text, startupHead);
   }
-  const body = table.createTBody();
-  for (const curve of results.curves) {
-    for (const point of curve.points) {
-      const row = body.insertRow();
-      if (point.pareto) row.className = "front";
-      const name = row.insertCell();
-      const swatch = element("span", "", name);
-      swatch.className = "swatch";
-      swatch.style.background = colors.get(curve.name);
-      name.append(curve.name);
-      const speedup = speedupOf(curve.name, point.label);
-      const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
-        : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " (extrapolated)" : ""}`;
-      for (const text of [point.label, time(point.seconds), scientific(point.relmse), digits(point.flip_ldr, 3),
-        percent(point.bias), equal, speedup ? ratioText(speedup) : ""]) {
-        row.insertCell().textContent = text;
-      }
+  const startupBody = startup.createTBody();
+  for (const item of results.startup) {
+    const row = startupBody.insertRow();
+    for (const text of [item.engine, ...[item.export_seconds, item.load_seconds, item.first_render_seconds]
+      .map((seconds) => (seconds === null ? "–" : time(seconds))), item.note]) {
+      row.insertCell().textContent = text;
     }
   }
 
   // ---- facts ----
-  const fact = (name, text, code) => {
+  const fact = (name, text) => {
     element("dt", name, byId("facts"));
-    const value = element("dd", code ? "" : text, byId("facts"));
-    if (code) element("code", text, value);
+    element("dd", text, byId("facts"));
   };
   const cycles = results.curves.find((curve) => curve.reference_engine);
-  const startups = own.map((point) => point.startup_seconds);
-  fact("Reference", `Cycles on the CPU, ${results.blender}, ${results.reference.threads} threads, ` +
+  const setup = cycles && cycles.points.length > 0 ? cycles.points[0].setup_seconds : 0;
+  fact("Reference", given ? `${referenceText}; its direct light and ${results.reference.bounces} bounces as it says itself.`
+    : `Cycles on the CPU, ${results.blender}, ${results.reference.threads} threads, ` +
     `${results.reference.spp} samples a pixel in two halves with different seeds: direct light and ` +
     `${results.reference.bounces} bounce${results.reference.bounces === 1 ? "" : "s"}, diffuse or glossy; no ` +
     "clamping, denoiser or adaptive sampling; Blackman-Harris filter, width 1.5.");
   fact("Error", "relMSE: mean over pixels and channels of (a − b)² / (b² + 0.01) on scene-linear values. FLIP " +
     "(Andersson et al., 2020) after the Standard view transform. Bias: mean(a) / mean(b) − 1.");
-  fact("Noise floor", `An exact picture would score ${scientific(floor)} against this reference: half the difference ` +
-    "of its two halves, squared and weighted as in relMSE.");
+  if (results.reference.noise_floor_relmse !== null) fact("Noise floor", `An exact picture would score ${scientific(results.reference.noise_floor_relmse)} against this ` +
+    "reference: half the difference of its two halves, squared and weighted as in relMSE.");
   fact("Time", "Per frame in steady state: Cycles renders a frame once before the render that is timed (the median of " +
-    "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it.");
-  if (cycles && cycles.points.length > 0) {
-    fact("Start-up", `Not in the times above. Cycles: ${time(cycles.points[0].startup_seconds)} to open the scene, ` +
-      `${time(results.reference.first_render_seconds)} for the first render of one sample; its set-up in each frame ` +
-      `(transfer and BVH), which is in its times, ${time(cycles.points[0].setup_seconds)}. ` +
-      (startups.length ? `Bounce: ${time(Math.min(...startups))} to ${time(Math.max(...startups))} a run.` : ""));
+    "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
+    (setup > 0 ? ` Cycles' set-up of each frame (transfer and BVH), which is in its times: ${time(setup)}.` : ""));
+  for (const peer of results.peers) {
+    if (results.curves.some((curve) => curve.name === peer.name)) fact(peer.name, peer.settings);
+    for (const text of peer.left_out) fact("Left out", text);
+    for (const text of peer.notes) fact(`Note, ${peer.name}`, text);
   }
   fact("Machine", `${results.machine.cpu}, ${results.machine.threads} threads, ${results.machine.system}`);
   fact("OpenGL", [results.gl.renderer, results.gl.version, results.gl.vendor].filter(Boolean).join(" · ") || "unknown");
   for (const note of results.notes) fact("Note", note);
-  fact("Command", results.command, true);
+  byId("command").textContent = results.command;
+  byId("copy").addEventListener("click", async () => {
+    // A page from a file has no clipboard in every browser: then the text is selected instead.
+    try {
+      await navigator.clipboard.writeText(results.command);
+      byId("copy").textContent = "Copied";
+    } catch {
+      getSelection().selectAllChildren(byId("command"));
+    }
+  });
+
+  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element,
+    tabs, onSchemeChange };
 })();

@@ -12,6 +12,7 @@
 #include "evaluate/page.h"
 #include "evaluate/report.h"
 #include "evaluate/scratch_folder.h"
+#include "image/flip.h"
 #include "image/heatmap.h"
 #include "image/image_io.h"
 #include "image/view_transform.h"
@@ -54,6 +55,7 @@ nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     for (const Reference& reference : evaluation.references) {
         const Image reference_display = to_display(reference.image, evaluation.cycles.view);
+        const Image reference_standard = to_display(reference.image, {});
         nlohmann::ordered_json previews = nlohmann::ordered_json::array();
         for (const auto& [curve, label] : shown) {
             for (const Picture& picture : evaluation.pictures) {
@@ -63,8 +65,10 @@ nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
                         {{"curve", curve},
                          {"label", label},
                          {"image", data_uri(display, scratch)},
-                         {"difference",
-                          data_uri(magnified_difference(display, reference_display), scratch)}});
+                         {"difference", data_uri(magnified_difference(display, reference_display), scratch)},
+                         // After the view transform of the figure, whatever the scene's own is.
+                         {"flip", data_uri(magma(flip_ldr(to_display(picture.image, {}), reference_standard)),
+                                           scratch)}});
                 }
             }
         }
@@ -84,6 +88,9 @@ std::string results_html(const Evaluation& evaluation) {
     // The data last: its text could hold a marker.
     put_into_page(page, "/*CHART_JS*/", embedded::chart_js());
     put_into_page(page, "/*REPORT_JS*/", embedded::report_js());
+    put_into_page(page, "/*REPORT_CHART_JS*/", embedded::report_chart_js());
+    put_into_page(page, "/*REPORT_VIEWER_JS*/", embedded::report_viewer_js());
+    put_into_page(page, "/*REPORT_FRAME_JS*/", embedded::report_frame_js());
     put_into_page(page, "/*PICTURES*/", json_for_script(pictures_json(evaluation)));
     put_into_page(page, "/*RESULTS*/", json_for_script(results_json(evaluation)));
     return page;

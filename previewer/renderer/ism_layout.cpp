@@ -45,8 +45,8 @@ IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map) {
     const int wanted = bounce == 1 ? settings.vpls : settings.bounce_vpls;
     layout.subset = std::max((wanted + subsets - 1) / subsets, 1);
     layout.vpls = layout.subset * subsets;
-    // Cells of the first bounce are about square, as its maps are. Splatted maps of a further one are cut into
-    // strips; where rows are patches of surface (shaders/lib/irsm.glsl), cells are runs of whole rows.
+    // Cells of the first bounce are about square, as its maps are. Splatted maps of a further one are cut
+    // into strips; where rows are patches of surface (shaders/lib/irsm.glsl), cells are runs of whole rows.
     layout.cell_columns = bounce == 1 ? static_cast<int>(std::sqrt(layout.subset)) : 1;
     while (layout.subset % layout.cell_columns != 0) {
         --layout.cell_columns;

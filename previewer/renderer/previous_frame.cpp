@@ -44,7 +44,8 @@ void PreviousFrameSource::draw(gpu::GpuScene& scene, gl::ProgramCache& programs,
                                 .frame = {},
                                 .width = settings.width,
                                 .height = settings.height},
-                               {view, motion_.clip_from_render, false}, graph.import_texture("previous depth", depth_));
+                               {view, motion_.clip_from_render, false},
+                               graph.import_texture("previous depth", depth_));
     graph.execute(timer);
     executed.insert(executed.end(), graph.executed().begin(), graph.executed().end());
 }

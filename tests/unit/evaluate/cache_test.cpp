@@ -86,7 +86,7 @@ TEST(HashFolder, DependsOnNamesAndContents) {
     EXPECT_NE(hash_folder(folder.path()), before);
 }
 
-const ReferenceKey k_key{"scene", 1, 640, 360, 1024, 1, "Blender 3.4.1", "scripts"};
+const ReferenceKey k_key{"scene", 1, 4, 2, 1024, 1, "Blender 3.4.1", "scripts"};
 
 TEST(CacheName, EveryInputCounts) {
     std::set<std::string> names{cache_name(k_key)};
@@ -147,6 +147,32 @@ TEST(Reference, ADamagedFileIsRenderedAgain) {
     store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F)), {});
     std::ofstream(folder / (cache_name(k_key) + ".exr")) << "cut";
     EXPECT_FALSE(load_reference(folder.path(), k_key));
+}
+
+// Files of another reference under this one's name, and one of another size.
+TEST(Reference, AForeignFileIsRenderedAgain) {
+    const TemporaryFolder folder;
+    ReferenceKey key = k_key;
+    key.width = 4;
+    key.height = 2;
+    ReferenceKey other = key;
+    other.frame = 2;
+    const Reference reference = make_reference(constant(0.5F), constant(0.5F));
+    store_reference(folder.path(), key, reference, {});
+    store_reference(folder.path(), other, make_reference(constant(0.7F), constant(0.7F)), {});
+    ASSERT_TRUE(load_reference(folder.path(), key));
+    const auto take = [&](const char* extension) {
+        fs::copy_file(folder / (cache_name(other) + extension), folder / (cache_name(key) + extension),
+                      fs::copy_options::overwrite_existing);
+    };
+    take(".exr");
+    EXPECT_FALSE(load_reference(folder.path(), key)) << "another picture beside its record";
+    take(".json");
+    EXPECT_FALSE(load_reference(folder.path(), key)) << "another whole reference";
+    ReferenceKey larger = key;
+    larger.width = 8;
+    store_reference(folder.path(), larger, reference, {});
+    EXPECT_FALSE(load_reference(folder.path(), larger)) << "4 x 2 pixels under the name of 8 x 2";
 }
 
 TEST(ResolveScene, LeavesGltfAsItIs) {

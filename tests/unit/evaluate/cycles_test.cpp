@@ -15,6 +15,7 @@
 #include "environment.h"
 #include "evaluate/blender_export.h"
 #include "evaluate/cycles_runner.h"
+#include "evaluate/peers.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "temporary_folder.h"
@@ -51,7 +52,7 @@ class CyclesTest : public testing::Test {
 
     CyclesReport render(const fs::path& scene, int bounces, int spp, int width = 16, int height = 16) {
         CyclesJob job{scene, width, height, bounces, {}};
-        job.renders.push_back({1, spp, 1, 1, folder_ / fmt::format("{}.exr", bounces), 0.0, 0.0});
+        job.renders.push_back({1, spp, 1, 1, folder_ / fmt::format("{}.exr", bounces), 0.0, 0.0, 0, {}});
         return run_cycles(job, blender_);
     }
 
@@ -138,7 +139,7 @@ TEST_F(CyclesTest, AnExportedFileGivesTheSamePicture) {
     std::vector<Image> images;
     for (const fs::path& scene : {blend, glb}) {
         CyclesJob job{scene, 64, 36, 1, {}};
-        job.renders.push_back({6, 64, 1, 1, folder_ / "out.exr", 0.0, 0.0});
+        job.renders.push_back({6, 64, 1, 1, folder_ / "out.exr", 0.0, 0.0, 0, {}});
         const CyclesReport report = run_cycles(job, blender_);
         EXPECT_TRUE(report.notes.empty()) << report.notes.front();
         images.push_back(read_image(folder_ / "out.exr"));
@@ -146,6 +147,70 @@ TEST_F(CyclesTest, AnExportedFileGivesTheSamePicture) {
     const Metrics metrics = compare(images[1], images[0], HdrFlip::leave_out);
     EXPECT_LT(std::abs(metrics.bias), 0.01);
     EXPECT_LT(metrics.relmse, 0.005);
+}
+
+// One lit plane, off the middle, in a picture that is higher than wide: all three engines must show it in one
+// place.
+constexpr const char* k_plane = R"(
+bpy.ops.mesh.primitive_plane_add(size=2, location=(.6, 0, .9), rotation=(1.3, 0, .2))
+material = bpy.data.materials.new('white')
+material.use_nodes = True
+nodes, links = material.node_tree.nodes, material.node_tree.links
+shader = nodes['Principled BSDF']
+shader.inputs['Base Color'].default_value = (.8, .8, .8, 1)
+shader.inputs['Specular'].default_value = 0
+shader.inputs['Roughness'].default_value = 1
+bpy.context.object.data.materials.append(material)
+bpy.ops.object.light_add(type='POINT', location=(0, -5, 4))
+bpy.context.object.data.energy = 500
+bpy.context.object.data.shadow_soft_size = 0
+bpy.ops.object.camera_add(location=(.2, -9, 2), rotation=(1.4, 0, 0))
+bpy.context.object.data.lens = 35
+scene.camera = bpy.context.object
+)";
+
+// Part of the pixels that one picture lights and the other does not; half of the brightest is the line, so
+// that smoothing outlines does not move them.
+double mask_difference(const Image& a, const Image& b) {
+    const float line_a = 0.5F * *std::max_element(a.rgb.begin(), a.rgb.end());
+    const float line_b = 0.5F * *std::max_element(b.rgb.begin(), b.rgb.end());
+    size_t differing = 0;
+    size_t lit = 0;
+    for (size_t i = 0; i < a.rgb.size(); i += 3) {
+        const bool in_a = a.rgb[i] > line_a;
+        const bool in_b = b.rgb[i] > line_b;
+        differing += in_a != in_b ? 1U : 0U;
+        lit += in_a ? 1U : 0U;
+    }
+    return static_cast<double>(differing) / static_cast<double>(std::max<size_t>(lit, 1));
+}
+
+TEST_F(CyclesTest, PeersSeeTheSceneFromItsCamera) {
+    make_scene(k_plane);
+    const CyclesReport cycles = render(folder_ / "scene.blend", 0, 64, 36, 64);
+    const Image reference = read_image(cycles.renders[0].output);
+    PeerJob job;
+    job.scene = folder_ / "scene.blend";
+    job.blender = blender_;
+    job.width = 36;
+    job.height = 64;
+    job.cache = folder_ / "cache";
+    for (const char* name : {"eevee", "f3d"}) {
+        const PeerResult result = run_peer(name, job, [](const std::string&) {});
+        if (result.points.empty()) {
+            ASSERT_THAT(result.left_out, testing::Contains(testing::HasSubstr("Debian's package"))) << name;
+            continue;  // not installed here
+        }
+        const Image& image = result.points.back().frames[0].render.image;
+        // A pixel to the side would be about a fifth.
+        EXPECT_LT(mask_difference(reference, image), 0.08) << name;
+        EXPECT_GT(result.points.back().frames[0].render.seconds, 0.0);
+        if (std::string(name) == "eevee") {
+            // Nothing bounces here, so Eevee's light is Cycles' but for its diffuse lobe.
+            EXPECT_NEAR(compare(image, reference, HdrFlip::leave_out).bias, 0.0, 0.1);
+            EXPECT_EQ(result.points.size(), 3U);
+        }
+    }
 }
 
 TEST_F(CyclesTest, SaysWhatIsWrongWithTheScene) {

@@ -82,9 +82,16 @@ TEST_F(EvaluateTest, RendersAReferenceOnce) {
     std::string first;
     std::string second;
     std::getline(in, first);
-    std::getline(in, second);
     EXPECT_NE(first.find("\"spp\": 16"), std::string::npos);
-    EXPECT_EQ(second.find("\"spp\": 16"), std::string::npos);
+    EXPECT_FALSE(std::getline(in, second)) << "the ladder is kept too";
+    EXPECT_EQ(again.cycles.version, "9.9.9");
+    EXPECT_FALSE(again.curves[0].points[0].measured.empty()) << "an earlier run's time is told as such";
+    EXPECT_TRUE(again.curves[1].points[0].measured.empty()) << "Bounce is measured anew";
+    options_.fresh = true;
+    const Evaluation fresh = evaluate(options_);
+    EXPECT_TRUE(fresh.curves[0].points[0].measured.empty());
+    EXPECT_TRUE(fresh.references[0].cached);
+    options_.fresh = false;
 
     std::ofstream(folder_ / "scene.glb") << "another scene";
     EXPECT_FALSE(evaluate(options_).references[0].cached);
@@ -219,6 +226,49 @@ TEST_F(EvaluateTest, CyclesFailureIsASentence) {
 TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
     options_.source.blender = test::write_script(folder_ / "other", "#!/bin/sh\necho hello\n");
     EXPECT_THROW((void)evaluate(options_), Error);
+}
+
+// Stopped behind three of Cycles' eight renders, then started again.
+TEST_F(EvaluateTest, GoesOnWhereItStopped) {
+    options_.point_folder = folder_ / "report/points";
+    options_.resume = true;
+    std::ofstream(folder_ / "cycles_fail_after") << 3;
+    EXPECT_THROW((void)evaluate(options_), Error);
+    EXPECT_EQ(calls("bounce_calls"), 3);
+    std::filesystem::remove(folder_ / "cycles_fail_after");
+    const Evaluation result = evaluate(options_);
+    EXPECT_EQ(calls("bounce_calls"), 3) << "the runs were there";
+    EXPECT_EQ(calls("pass_calls"), 3) << "their passes are timed at the end";
+    EXPECT_DOUBLE_EQ(result.curves[1].points[0].seconds, 0.020);
+    EXPECT_EQ(result.curves[1].points[0].rss_peak_bytes, 8U);
+    std::ifstream in(folder_ / "blender_calls");
+    std::string first;
+    std::string second;
+    std::getline(in, first);
+    std::getline(in, second);
+    EXPECT_NE(first.find("cycles_1_1_3.exr"), std::string::npos);
+    for (const char* finished : {"cycles_1_1_3.exr", "cycles_1_4_3.exr", "cycles_1_16_1.exr"}) {
+        EXPECT_EQ(second.find(finished), std::string::npos) << finished;
+    }
+    for (const char* missing : {"cycles_1_16_2.exr", "cycles_24_1_3.exr", "cycles_24_16_2.exr"}) {
+        EXPECT_NE(second.find(missing), std::string::npos) << missing;
+    }
+
+    // Another program is another measurement.
+    std::ofstream(options_.bounce, std::ios::app) << "# changed\n";
+    (void)evaluate(options_);
+    EXPECT_EQ(calls("bounce_calls"), 3 + 3);
+}
+
+TEST_F(EvaluateTest, LooksIntoTheFrames) {
+    const Evaluation result = evaluate(options_);
+    ASSERT_EQ(result.passes.size(), 3U);
+    EXPECT_EQ(result.passes[0].passes[0].name, "gbuffer");
+    EXPECT_DOUBLE_EQ(result.passes[0].passes[0].seconds, 0.005);
+    EXPECT_EQ(result.passes[0].left_out[0].reason, "nothing moves");
+    ASSERT_EQ(result.startups.size(), 2U);
+    EXPECT_EQ(result.startups[0].engine, "Bounce");
+    EXPECT_EQ(result.startups[1].first_render_seconds, 3.0);
 }
 
 TEST_F(EvaluateTest, WritesAWholeReport) {

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 std::string refusal(const std::string& name, int frame, int width, int height, int bounces) {
     try {
-        (void)load_given_reference(name, frame, width, height, bounces);
+        (void)load_given_reference(name, frame, width, height, bounces, "hash");
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::input_refused);
         return error.what();
@@ -36,9 +36,9 @@ TEST(GivenReference, TellsWhatItsHeaderSays) {
     reference.noise_floor = 1.25e-5;
     reference.seconds = 12.5;
     write_image(folder / "ref.0024.exr", reference.image,
-                reference_attributes(reference, "room.blend", 2, 512));
+                reference_attributes(reference, "room.blend", "hash", 2, 512));
     const std::string name = (folder / "ref.####.exr").string();
-    const Reference read = load_given_reference(name, 24, 4, 2, 2);
+    const Reference read = load_given_reference(name, 24, 4, 2, 2, "hash");
     EXPECT_EQ(read.frame, 24);
     EXPECT_EQ(read.image.rgb, reference.image.rgb);
     EXPECT_EQ(read.noise_floor, 1.25e-5);
@@ -52,10 +52,20 @@ TEST(GivenReference, TellsWhatItsHeaderSays) {
     EXPECT_THAT(refusal(name, 1, 4, 2, 2), HasSubstr("no such file"));
 }
 
+TEST(GivenReference, OfAnotherSceneIsRefused) {
+    const TemporaryFolder folder;
+    Reference reference;
+    reference.image = Image(4, 2);
+    write_image(folder / "ref.exr", reference.image,
+                reference_attributes(reference, "room.blend", "other", 2, 512));
+    EXPECT_THAT(refusal((folder / "ref.exr").string(), 1, 4, 2, 2),
+                HasSubstr("another scene or of another state of it: room.blend"));
+}
+
 TEST(GivenReference, OfAnotherProgramHasNoHeader) {
     const TemporaryFolder folder;
     test::write_constant(folder / "a.exr", 0.5F, 4, 2);
-    const Reference read = load_given_reference((folder / "a.exr").string(), 7, 4, 2, 1);
+    const Reference read = load_given_reference((folder / "a.exr").string(), 7, 4, 2, 1, "hash");
     EXPECT_EQ(read.frame, 7);
     EXPECT_TRUE(std::isnan(read.noise_floor));
     EXPECT_EQ(given_reference_spp((folder / "a.exr").string(), 7), 0);

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/eevee_runner.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/process.h"
+#include "evaluate/blender_export.h"
+#include "evaluate/cycles_runner.h"
+#include "evaluate/embedded.h"
+#include "evaluate/scratch_folder.h"
+#include "evaluate/sha256.h"
+#include "image/image_io.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::array k_samples{1, 16, 64};
+constexpr std::string_view k_event_prefix = "BOUNCE ";
+
+std::string scripts_hash() {
+    return sha256_of_text(std::string(embedded::eevee_render_py()) + cycles_scripts_hash());
+}
+
+class EeveeRun {
+  public:
+    EeveeRun(const PeerJob& job, const PeerProgress& progress, PeerResult& result)
+        : job_(job), progress_(progress), result_(result), cache_(job.cache, job.width, job.height) {}
+
+    void run() {
+        for (const int samples : k_samples) {
+            result_.points.push_back({"Eevee", label(samples), {}});
+        }
+        json frames = json::array();
+        for (const int frame : job_.frames) {
+            json renders = json::array();
+            for (size_t i = 0; i < k_samples.size(); ++i) {
+                if (!take_cached(frame, i)) {
+                    renders.push_back(
+                        {{"samples", k_samples.at(i)}, {"output", output(frame, k_samples.at(i)).string()}});
+                }
+            }
+            if (!renders.empty()) {
+                frames.push_back({{"frame", frame}, {"renders", renders}});
+            }
+        }
+        if (!frames.empty()) {
+            render(frames);
+        }
+        for (PeerPoint& point : result_.points) {
+            std::sort(point.frames.begin(), point.frames.end(),
+                      [](const PeerFrame& a, const PeerFrame& b) { return a.frame < b.frame; });
+        }
+    }
+
+  private:
+    static std::string label(int samples) {
+        return fmt::format("{} {}", samples, samples == 1 ? "sample" : "samples");
+    }
+
+    [[nodiscard]] fs::path output(int frame, int samples) const {
+        return scratch_ / fmt::format("eevee_{}_{}.exr", frame, samples);
+    }
+
+    [[nodiscard]] std::string key(int frame, int samples) const {
+        return peer_key(job_, frame, fmt::format("Eevee, {} samples\n{}", samples, scripts_hash()));
+    }
+
+    bool take_cached(int frame, size_t index) {
+        if (job_.fresh) {
+            return false;
+        }
+        auto found = cache_.load(key(frame, k_samples.at(index)));
+        if (!found) {
+            return false;
+        }
+        add_notes(found->notes);
+        result_.points[index].frames.push_back({frame, std::move(*found), true});
+        return true;
+    }
+
+    void add_notes(const std::vector<std::string>& notes) {
+        for (const std::string& note : notes) {
+            if (std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end()) {
+                result_.notes.push_back(note);
+            }
+        }
+    }
+
+    void render(const json& frames) {
+        std::vector<std::string> command = with_display();
+        const bool blend = job_.scene.extension() == ".blend";
+        json description{{"scene", fs::absolute(job_.scene).string()},
+                         {"width", job_.width},
+                         {"height", job_.height},
+                         {"limit_seconds", job_.limit_seconds},
+                         {"frames", frames}};
+        if (!blend) {
+            description["addon"] = find_addon().string();
+        }
+        write_text_file(scratch_ / "cycles_render.py", embedded::cycles_render_py());
+        write_text_file(scratch_ / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
+        write_text_file(scratch_ / "eevee_render.py", embedded::eevee_render_py());
+        write_text_file(scratch_ / "job.json", description.dump());
+        command.insert(command.end(), {job_.blender.string(), "-b", "--factory-startup"});
+        if (blend) {
+            command.push_back(fs::absolute(job_.scene).string());
+        }
+        command.insert(command.end(),
+                       {"--python-exit-code", "1", "-P", (scratch_ / "eevee_render.py").string(), "--",
+                        (scratch_ / "job.json").string()});
+        start_ = Clock::now();
+        const ProcessResult process = run_process(command, [&](std::string_view line) { read_line(line); });
+        if (process.exit_code != 0 || error_) {
+            log::debug("{}", process.output);
+            throw Error(ExitCode::failed, error_ ? *error_
+                                                 : fmt::format("Blender ended with code {} after \"{}\"",
+                                                               process.exit_code, last_line(process.output)));
+        }
+    }
+
+    void read_line(std::string_view text) {
+        const size_t at = text.find(k_event_prefix);
+        if (at == std::string_view::npos || error_) {
+            return;
+        }
+        try {
+            const json event = json::parse(text.substr(at + k_event_prefix.size()));
+            handle(event, event.at("event").get<std::string>());
+        } catch (const json::exception& error) {
+            error_ = fmt::format("what Blender told cannot be read ({})", error.what());
+        } catch (const Error& error) {
+            error_ = error.what();  // thrown on after Blender has ended
+        }
+    }
+
+    void handle(const json& event, const std::string& kind) {
+        if (kind == "ready") {
+            startup_seconds_ = std::chrono::duration<double>(Clock::now() - start_).count();
+            files_ = event.at("files").get<std::vector<fs::path>>();
+            film_exposure_ = event.at("film_exposure");
+            if (film_exposure_ != 1.0F) {
+                add_notes({fmt::format("Eevee knows no film exposure: its pictures are multiplied by {}",
+                                       film_exposure_)});
+            }
+        } else if (kind == "warm_up" && first_render_seconds_ == 0.0) {
+            first_render_seconds_ = event.at("seconds");
+        } else if (kind == "render") {
+            take_render(job_frame(event), event);
+        } else if (kind == "skip") {
+            const int samples = event.at("samples");
+            if (skipped_.insert(samples).second) {
+                result_.left_out.push_back(
+                    fmt::format("Eevee at {} samples is left out: a frame would take about {:.0f} s; "
+                                "--peer-limit allows {:.0f} s",
+                                samples, event.at("expected_seconds").get<double>(), job_.limit_seconds));
+            }
+        } else if (kind == "note") {
+            add_notes({event.at("message").get<std::string>()});
+        } else if (kind == "error") {
+            error_ = event.at("message");
+        }
+    }
+
+    static int job_frame(const json& event) { return event.at("frame").get<int>(); }
+
+    void take_render(int frame, const json& event) {
+        const int samples = event.at("samples");
+        const auto index =
+            static_cast<size_t>(std::find(k_samples.begin(), k_samples.end(), samples) - k_samples.begin());
+        CachedRender render;
+        render.image = read_image(output(frame, samples));
+        for (float& value : render.image.rgb) {
+            value *= film_exposure_;
+        }
+        render.seconds = event.at("seconds");
+        render.startup_seconds = startup_seconds_;
+        render.first_render_seconds = first_render_seconds_;
+        render.rss_peak_bytes = event.at("rss_peak_bytes");
+        render.date = utc_now();
+        render.notes = result_.notes;
+        cache_.store_or_warn(key(frame, samples), render, files_);
+        progress_(fmt::format("Eevee, frame {}, {}: {:.2f} s", frame, label(samples), render.seconds));
+        result_.points.at(index).frames.push_back({frame, std::move(render), false});
+    }
+
+    const PeerJob& job_;
+    const PeerProgress& progress_;
+    PeerResult& result_;
+    ScratchFolder scratch_;
+    RenderCache cache_;
+    Clock::time_point start_ = Clock::now();
+    double startup_seconds_ = 0.0;
+    double first_render_seconds_ = 0.0;
+    float film_exposure_ = 1.0F;
+    std::vector<fs::path> files_;
+    std::set<int> skipped_;
+    std::optional<std::string> error_;
+};
+
+}  // namespace
+
+void run_eevee(const PeerJob& job, const PeerProgress& progress, PeerResult& result) {
+    result.name = "Eevee";
+    result.settings =
+        "Blender's Eevee as the scene has it set (soft shadows, ambient occlusion, reflections), at 1, 16 "
+        "and 64 samples; "
+        "bloom, motion blur, depth of field and compositing off. It has no bounced light but from baked "
+        "light probes, and "
+        "none is baked. Time: renders of a frame after two that are not counted, the median of three below 2 "
+        "s.";
+    EeveeRun(job, progress, result).run();
+}
+
+}  // namespace bounce

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`bounce evaluate` from end to end with stand-ins for the other engines: a killed run goes on, and its page works in a
+real browser."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+import browser
+import fake_engines
+
+SIZE = "32x18"
+CHROMIUM = browser.find()
+
+
+@pytest.fixture
+def engines(tmp_path, bounce, scene):
+    """A folder with the other engines' stand-ins, which render what Bounce does, and the environment that finds them."""
+    folder = tmp_path / "engines"
+    folder.mkdir()
+    fake_engines.install(folder)
+    for name in ("engine.exr", "engine.png"):
+        done = bounce("render", scene, "-o", folder / name, "--frames", "10", "--technique", "direct", "--size", SIZE)
+        assert done.returncode == 0, done.stderr
+    return folder
+
+
+def environment_of(engines, tmp_path):
+    return {"PATH": f"{engines}:/usr/bin:/bin", "DISPLAY": "", "XDG_CACHE_HOME": str(tmp_path / "cache")}
+
+
+def arguments_of(engines, scene, output):
+    # Without bounces one run of Bounce's own is all there is.
+    return ["evaluate", scene, "-o", output, "--frames", "10,11", "--size", SIZE, "--reference-spp", "32", "--repeat", "2",
+            "--cycles-spp", "1,4", "--bounces", "0", "--blender", engines / "blender"]
+
+
+def jobs(engines):
+    return [json.loads(line) for line in (engines / "calls").read_text(encoding="utf-8").splitlines()]
+
+
+def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, tmp_path):
+    environment = environment_of(engines, tmp_path)
+    command = arguments_of(engines, scene, "report")
+    (engines / "hang").write_text("16", encoding="utf-8")
+    with subprocess.Popen([binary, *map(str, command)], cwd=tmp_path, env={**os.environ, **environment},
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        # Both steps of the ladder are done, the first half of the reference is not.
+        for line in process.stdout:
+            if "4 spp" in line:
+                break
+        process.send_signal(signal.SIGKILL)
+    assert not (tmp_path / "report/results.json").exists(), "half a report"
+    points = list((tmp_path / "report/points").iterdir())
+    assert len(points) == 1
+    finished = (points[0] / "stats.json").stat().st_mtime_ns
+    before = len(jobs(engines))
+    (engines / "hang").unlink()
+
+    done = bounce(*command, "--resume", environment=environment)
+    assert done.returncode == 0, done.stderr
+    again = jobs(engines)[before:]
+    assert [job["script"] for job in again] == ["cycles_render.py"], "Eevee and f3d were finished"
+    asked = [(frame["frame"], item["spp"]) for frame in again[0]["frames"] for item in frame["renders"]]
+    assert asked == [(10, 16), (10, 16), (11, 1), (11, 4), (11, 16), (11, 16)]
+    assert (points[0] / "stats.json").stat().st_mtime_ns == finished, "Bounce's own run was finished too"
+    results = json.loads((tmp_path / "report/results.json").read_text(encoding="utf-8"))
+    assert {curve["name"] for curve in results["curves"]} == {"Cycles", "Eevee", "f3d", "Direct light only"}
+    own = next(curve for curve in results["curves"] if curve["name"] == "Direct light only")
+    assert own["points"][0]["rss_peak_bytes"] > 1 << 20
+    assert own["points"][0]["gl_peak_bytes"] > 0
+    assert [item["engine"] for item in results["startup"]] == ["Bounce", "Cycles", "Eevee", "f3d"]
+    assert results["passes"][0]["passes"]
+
+
+def test_missing_engines_are_sentences(bounce, scene, engines, tmp_path):
+    for name in ("f3d", "xvfb-run"):
+        (engines / name).unlink()
+    environment = environment_of(engines, tmp_path)
+    environment["PATH"] = str(engines) + ":" + str(tmp_path / "nothing")
+    # The stand-in for Blender is found by its path, and its interpreter by env.
+    (engines / "python3").symlink_to("/usr/bin/python3")
+    done = bounce(*arguments_of(engines, scene, "report"), environment=environment)
+    assert done.returncode == 0, done.stderr
+    assert "Debian's package xvfb" in done.stderr
+    assert "Debian's package f3d" in done.stderr
+    results = json.loads((tmp_path / "report/results.json").read_text(encoding="utf-8"))
+    assert [bool(peer["left_out"]) for peer in results["peers"]] == [True, True]
+    none = bounce(*arguments_of(engines, scene, "report"), "--peers", "none", environment=environment)
+    assert none.returncode == 0 and "left out" not in none.stderr
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed here; Debian's package chromium")
+def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
+    done = bounce(*arguments_of(engines, scene, "report"), environment=environment_of(engines, tmp_path))
+    assert done.returncode == 0, done.stderr
+    page = tmp_path / "elsewhere.html"
+    os.rename(tmp_path / "report/index.html", page)  # alone, without the folder beside it
+    results = json.loads((tmp_path / "report/results.json").read_text(encoding="utf-8"))
+    points = [point for curve in results["curves"] for point in curve["points"]]
+    with browser.Browser(CHROMIUM, 1400, 900) as window:
+        window.open(page)
+        chart = "Chart.getChart('chart')"
+        shown = window.evaluate(f"{chart}.data.datasets.flatMap(d => d.data.filter(i => i.point)).length")
+        assert shown == sum(point["relmse"] > 0 for point in points) > 0
+        logarithmic = window.evaluate(f"[{chart}.scales.x.type, {chart}.scales.y.type]")
+        assert logarithmic == ["logarithmic", "logarithmic"]
+
+        # Hover: the mouse over a point tells its figures.
+        x, y = window.evaluate(f"(() => {{ const box = document.getElementById('chart').getBoundingClientRect();"
+                               f"const c = {chart}; const at = c.data.datasets.findIndex(d => d.data[0].point);"
+                               f"const p = c.getDatasetMeta(at).data[0]; return [box.x + p.x, box.y + p.y]; }})()")
+        window.mouse("mouseMoved", x, y)
+        window.wait(f"{chart}.tooltip.opacity > 0")
+        told = " ".join(window.evaluate(f"{chart}.tooltip.body.flatMap(b => b.lines)"))
+        assert "relMSE" in told and "a frame" in told
+
+        # The wipe follows the mouse, and the picture is cut there.
+        window.evaluate("document.getElementById('stage').scrollIntoView()")
+        box = window.evaluate("(() => { const b = document.getElementById('stage').getBoundingClientRect();"
+                              "return [b.x, b.y, b.width, b.height]; })()")
+        cut = "document.getElementById('right-image').style.clipPath"
+        before = window.evaluate(cut)
+        assert "50%" in before
+        middle = box[1] + box[3] / 3
+        window.mouse("mousePressed", box[0] + box[2] / 2, middle, 1)
+        window.mouse("mouseMoved", box[0] + box[2] / 4, middle, 1)
+        window.mouse("mouseReleased", box[0] + box[2] / 4, middle)
+        after = window.evaluate("Number(document.getElementById('wipe').value)")
+        assert 230 < after < 270
+        assert window.evaluate(cut) != before
+
+        # Another picture, its maps, and the other frame.
+        tag = "document.getElementById('left-tag').textContent"
+        first = window.evaluate(tag)
+        window.evaluate("(() => { const s = document.getElementById('left'); s.selectedIndex = 1;"
+                        "s.dispatchEvent(new Event('change')); })()")
+        second = window.evaluate(tag)
+        assert second != first and second in window.evaluate("document.getElementById('flip-caption').textContent")
+        for name in ("left-image", "right-image", "difference", "flip"):
+            window.wait(f"document.getElementById('{name}').naturalWidth === 32")
+        window.evaluate("document.querySelectorAll('#frame-tabs button')[1].click()")
+        assert "Frame 11" in window.evaluate("document.querySelector('#frame-tabs [aria-pressed=true]').textContent")
+        window.evaluate("document.querySelectorAll('#mode-tabs button')[1].click()")
+        assert window.evaluate(cut) == "none"
+
+        # Passes, the frame plan, start-up, the command.
+        assert window.evaluate("Chart.getChart('passes').data.datasets.length") > 0
+        assert window.evaluate("document.querySelectorAll('#plan-ran tr').length") > 0
+        assert window.evaluate("document.querySelectorAll('#plan-left-out dd').length") > 0
+        assert window.evaluate("document.querySelectorAll('#startup tbody tr').length") == 4
+        assert "evaluate" in window.evaluate("document.getElementById('command').textContent")
+
+        # Dark where the system is, and no wider than the window at any size.
+        light = window.evaluate("getComputedStyle(document.body).backgroundColor")
+        window.scheme("dark")
+        window.wait(f"getComputedStyle(document.body).backgroundColor !== '{light}'")
+        for width in (1400, 800, 420):
+            window.resize(width, 900)
+            window.wait(f"document.documentElement.scrollWidth <= {width}")
+        time.sleep(0.2)
+        assert window.errors == []
+        others = [url for url in window.requests if not url.startswith(("data:", "file:///", "about:"))]
+        assert others == []
+        assert [url for url in window.requests if url.startswith("file:")] == [f"file://{page}"]
