@@ -130,9 +130,10 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
         leave_out_bounces(plan, glossy ? "no surface reflects light" : "no surface reflects diffusely");
     }
     // A hole between the parts of a cut-out looks like a place that points left bare.
-    plan.close_maps = !holes && settings.splat == Splat::disks && settings.visibility == Visibility::ism &&
-                      settings.technique == Technique::ism;
-    if (holes) {
+    const bool disks = settings.technique == Technique::ism && settings.visibility == Visibility::ism &&
+                       settings.splat == Splat::disks;
+    plan.close_maps = disks && !holes;
+    if (disks && holes) {
         plan.left_out.push_back({"ism close", "a material has holes, which closing would fill"});
     }
     if (blend) {

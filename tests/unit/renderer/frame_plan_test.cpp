@@ -281,6 +281,9 @@ TEST_F(FramePlanTest, MapsAreNotClosedOverHoles) {
     scene_.materials[0].alpha_mode = scene::AlphaMode::mask;
     EXPECT_FALSE(plan().close_maps);
     EXPECT_THAT(reason(plan(), "ism close"), HasSubstr("holes"));
+    settings_.technique = Technique::direct;
+    EXPECT_EQ(reason(plan(), "ism close"), "") << "there are no maps to close";
+    settings_.technique = Technique::ism;
     scene_.materials[0].alpha_mode = scene::AlphaMode::opaque;
     settings_.splat = Splat::compute;
     EXPECT_FALSE(plan().close_maps) << "squares are closed by pull-push";
