@@ -8,11 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/log.h"
 #include "core/process.h"
-#include "evaluate/blender_export.h"
+#include "evaluate/blender_script.h"
 #include "evaluate/embedded.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
@@ -23,8 +21,6 @@ namespace {
 
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::string_view k_event_prefix = "BOUNCE ";
 
 json job_to_json(const CyclesJob& job) {
     json frames = json::array();
@@ -37,12 +33,7 @@ json job_to_json(const CyclesJob& job) {
                                             {"repeat", render.repeat},
                                             {"output", render.output.string()}});
     }
-    json result{{"scene", fs::absolute(job.scene).string()},
-                {"width", job.width},
-                {"height", job.height},
-                {"bounces", job.bounces},
-                {"frames", frames}};
-    return result;
+    return {{"width", job.width}, {"height", job.height}, {"bounces", job.bounces}, {"frames", frames}};
 }
 
 // Reads the lines that Blender prints while it works through a job.
@@ -55,28 +46,13 @@ class Listener {
     }
 
     void line(std::string_view text) {
-        // Blender's own status lines end without a newline where the script's output follows.
-        const size_t at = text.find(k_event_prefix);
-        if (at == std::string_view::npos) {
-            // "Sample 0/16": the scene is with the device, sampling starts.
-            if (text.find("| Sample 0/") != std::string_view::npos && !sampling_started_) {
-                sampling_started_ = Clock::now();
-            }
-            return;
-        }
-        const json event = json::parse(text.substr(at + k_event_prefix.size()), nullptr, false);
-        if (event.is_object()) {
-            handle(event);
+        // "Sample 0/16": the scene is with the device, sampling starts.
+        if (text.find("| Sample 0/") != std::string_view::npos && !sampling_started_) {
+            sampling_started_ = Clock::now();
         }
     }
 
-    [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
-    [[nodiscard]] bool complete() const { return done_ == report_.renders.size(); }
-    [[nodiscard]] CyclesReport take() { return std::move(report_); }
-
-  private:
-    void handle(const json& event) {
-        const std::string kind = event.value("event", "");
+    void handle(const std::string& kind, const json& event) {
         if (kind == "ready") {
             ready(event);
         } else if (kind == "begin") {
@@ -98,11 +74,13 @@ class Listener {
             }
         } else if (kind == "note") {
             report_.notes.push_back(event.at("message"));
-        } else if (kind == "error") {
-            error_ = event.at("message");
         }
     }
 
+    [[nodiscard]] bool complete() const { return done_ == report_.renders.size(); }
+    [[nodiscard]] CyclesReport take() { return std::move(report_); }
+
+  private:
     void ready(const json& event) {
         report_.version = event.at("version");
         report_.threads = event.at("threads");
@@ -116,7 +94,6 @@ class Listener {
     const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render_;
     CyclesReport report_;
     size_t done_ = 0;
-    std::optional<std::string> error_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point begin_ = start_;
     std::optional<Clock::time_point> sampling_started_;
@@ -127,30 +104,18 @@ class Listener {
 CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
                         const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render) {
     const ScratchFolder scratch;
-    const bool blend = job.scene.extension() == ".blend";
-    json description = job_to_json(job);
-    if (!blend) {
-        description["addon"] = find_addon().string();  // its Draco library decodes the file
-    }
-    write_text_file(scratch / "cycles_render.py", embedded::cycles_render_py());
-    write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
-    write_text_file(scratch / "job.json", description.dump());
-
-    std::vector<std::string> command{blender.string(), "-b", "--factory-startup"};
-    if (blend) {
-        command.push_back(fs::absolute(job.scene).string());
-    }
-    command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch / "cycles_render.py").string(),
-                                   "--", (scratch / "job.json").string()});
     Listener listener(job, on_render);
-    const ProcessResult result = run_process(command, [&](std::string_view line) { listener.line(line); });
-    if (result.exit_code != 0 || listener.error() || !listener.complete()) {
-        log::debug("{}", result.output);
-        throw input_error(fmt::format("Cycles could not render {}: {}", job.scene.string(),
-                                      listener.error()
-                                          ? *listener.error()
-                                          : fmt::format("Blender ended with code {} after \"{}\"",
-                                                        result.exit_code, last_line(result.output))));
+    const BlenderEnd end = run_blender_script(
+        {.blender = blender,
+         .scene = job.scene,
+         .name = "cycles_render.py",
+         .text = embedded::cycles_render_py(),
+         .description = job_to_json(job),
+         .display = {}},
+        scratch, [&](const std::string& kind, const json& event) { listener.handle(kind, event); },
+        [&](std::string_view line) { listener.line(line); });
+    if (end.failed || !listener.complete()) {
+        throw input_error(fmt::format("Cycles could not render {}: {}", job.scene.string(), end.reason));
     }
     return listener.take();
 }

@@ -5,17 +5,13 @@
 #include <array>
 #include <chrono>
 #include <map>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/log.h"
-#include "core/process.h"
-#include "evaluate/blender_export.h"
+#include "evaluate/blender_script.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/embedded.h"
 #include "evaluate/scratch_folder.h"
@@ -30,7 +26,6 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::array k_samples{1, 16, 64};
-constexpr std::string_view k_event_prefix = "BOUNCE ";
 
 std::string scripts_hash() {
     return sha256_of_text(std::string(embedded::eevee_render_py()) + cycles_scripts_hash());
@@ -102,53 +97,24 @@ class EeveeRun {
     }
 
     void render(const json& frames) {
-        std::vector<std::string> command = with_display();
-        const bool blend = job_.scene.extension() == ".blend";
-        json description{{"scene", fs::absolute(job_.scene).string()},
-                         {"width", job_.width},
-                         {"height", job_.height},
-                         {"limit_seconds", job_.limit_seconds},
-                         {"frames", frames}};
-        if (!blend) {
-            description["addon"] = find_addon().string();
-        }
-        write_text_file(scratch_ / "cycles_render.py", embedded::cycles_render_py());
-        write_text_file(scratch_ / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
-        write_text_file(scratch_ / "eevee_render.py", embedded::eevee_render_py());
-        write_text_file(scratch_ / "job.json", description.dump());
-        command.insert(command.end(), {job_.blender.string(), "-b", "--factory-startup"});
-        if (blend) {
-            command.push_back(fs::absolute(job_.scene).string());
-        }
-        command.insert(command.end(),
-                       {"--python-exit-code", "1", "-P", (scratch_ / "eevee_render.py").string(), "--",
-                        (scratch_ / "job.json").string()});
         start_ = Clock::now();
-        const ProcessResult process = run_process(command, [&](std::string_view line) { read_line(line); });
-        if (process.exit_code != 0 || error_) {
-            log::debug("{}", process.output);
-            throw Error(ExitCode::failed, error_ ? *error_
-                                                 : fmt::format("Blender ended with code {} after \"{}\"",
-                                                               process.exit_code, last_line(process.output)));
+        const BlenderEnd end = run_blender_script(
+            {.blender = job_.blender,
+             .scene = job_.scene,
+             .name = "eevee_render.py",
+             .text = embedded::eevee_render_py(),
+             .description = {{"width", job_.width},
+                             {"height", job_.height},
+                             {"limit_seconds", job_.limit_seconds},
+                             {"frames", frames}},
+             .display = with_display()},
+            scratch_, [&](const std::string& kind, const json& event) { handle(kind, event); });
+        if (end.failed) {
+            throw Error(ExitCode::failed, end.reason);
         }
     }
 
-    void read_line(std::string_view text) {
-        const size_t at = text.find(k_event_prefix);
-        if (at == std::string_view::npos || error_) {
-            return;
-        }
-        try {
-            const json event = json::parse(text.substr(at + k_event_prefix.size()));
-            handle(event, event.at("event").get<std::string>());
-        } catch (const json::exception& error) {
-            error_ = fmt::format("what Blender told cannot be read ({})", error.what());
-        } catch (const Error& error) {
-            error_ = error.what();  // thrown on after Blender has ended
-        }
-    }
-
-    void handle(const json& event, const std::string& kind) {
+    void handle(const std::string& kind, const json& event) {
         if (kind == "ready") {
             startup_seconds_ = std::chrono::duration<double>(Clock::now() - start_).count();
             files_ = event.at("files").get<std::vector<fs::path>>();
@@ -171,8 +137,6 @@ class EeveeRun {
             }
         } else if (kind == "note") {
             add_notes({event.at("message").get<std::string>()});
-        } else if (kind == "error") {
-            error_ = event.at("message");
         }
     }
 
@@ -209,7 +173,6 @@ class EeveeRun {
     float film_exposure_ = 1.0F;
     std::vector<fs::path> files_;
     std::set<int> skipped_;
-    std::optional<std::string> error_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/process.h"
-#include "evaluate/blender_export.h"
+#include "evaluate/blender_script.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/embedded.h"
 #include "evaluate/scratch_folder.h"
@@ -27,7 +27,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view k_event_prefix = "BOUNCE ";
 // Frames drawn before the ones that count: shaders are compiled by then. Even, as each press switches
 // something.
 constexpr int k_warm_up = 4;
@@ -113,55 +112,28 @@ class F3dRun {
     }
 
     void export_frames(const std::vector<int>& frames) {
-        const bool blend = job_.scene.extension() == ".blend";
-        json description{{"scene", fs::absolute(job_.scene).string()},
-                         {"width", job_.width},
-                         {"height", job_.height},
-                         {"frames", json::array()}};
+        json files = json::array();
         for (const int frame : frames) {
-            description["frames"].push_back({{"frame", frame},
-                                             {"lit", gltf(frame, true).string()},
-                                             {"unlit", gltf(frame, false).string()}});
+            files.push_back({{"frame", frame},
+                             {"lit", gltf(frame, true).string()},
+                             {"unlit", gltf(frame, false).string()}});
         }
-        if (!blend) {
-            description["addon"] = find_addon().string();
-        }
-        write_text_file(scratch_ / "cycles_render.py", embedded::cycles_render_py());
-        write_text_file(scratch_ / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
-        write_text_file(scratch_ / "f3d_export.py", embedded::f3d_export_py());
-        write_text_file(scratch_ / "job.json", description.dump());
-        std::vector<std::string> command{job_.blender.string(), "-b", "--factory-startup"};
-        if (blend) {
-            command.push_back(fs::absolute(job_.scene).string());
-        }
-        command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch_ / "f3d_export.py").string(),
-                                       "--", (scratch_ / "job.json").string()});
-        const ProcessResult process = run_process(command, [&](std::string_view line) { read_line(line); });
-        if (process.exit_code != 0 || error_ || views_.size() != frames.size()) {
-            log::debug("{}", process.output);
-            throw Error(ExitCode::failed, error_ ? *error_
-                                                 : fmt::format("Blender ended with code {} after \"{}\"",
-                                                               process.exit_code, last_line(process.output)));
-        }
-    }
-
-    void read_line(std::string_view text) {
-        const size_t at = text.find(k_event_prefix);
-        if (at == std::string_view::npos || error_) {
-            return;
-        }
-        const json event = json::parse(text.substr(at + k_event_prefix.size()), nullptr, false);
-        try {
-            const std::string kind = event.at("event");
-            if (kind == "ready") {
-                files_ = event.at("files").get<std::vector<fs::path>>();
-            } else if (kind == "frame") {
-                views_[event.at("frame").get<int>()] = event;
-            } else if (kind == "error") {
-                error_ = event.at("message");
-            }
-        } catch (const json::exception& error) {
-            error_ = fmt::format("what Blender told cannot be read ({})", error.what());
+        const BlenderEnd end = run_blender_script(
+            {.blender = job_.blender,
+             .scene = job_.scene,
+             .name = "f3d_export.py",
+             .text = embedded::f3d_export_py(),
+             .description = {{"width", job_.width}, {"height", job_.height}, {"frames", files}},
+             .display = {}},
+            scratch_, [&](const std::string& kind, const json& event) {
+                if (kind == "ready") {
+                    files_ = event.at("files").get<std::vector<fs::path>>();
+                } else if (kind == "frame") {
+                    views_[event.at("frame").get<int>()] = event;
+                }
+            });
+        if (end.failed || views_.size() != frames.size()) {
+            throw Error(ExitCode::failed, end.reason);
         }
     }
 
@@ -234,7 +206,6 @@ class F3dRun {
     std::vector<std::string> display_;
     std::map<int, json> views_;
     std::vector<fs::path> files_;
-    std::optional<std::string> error_;
 };
 
 }  // namespace

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/blender_script.h"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/process.h"
+#include "evaluate/blender_export.h"
+#include "evaluate/cycles_runner.h"
+#include "evaluate/embedded.h"
+
+namespace bounce {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view k_event_prefix = "BOUNCE ";
+
+}  // namespace
+
+BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& scratch,
+                              const std::function<void(const std::string&, const json&)>& on_event,
+                              const std::function<void(std::string_view)>& on_line) {
+    const bool blend = script.scene.extension() == ".blend";
+    json description = script.description;
+    description["scene"] = fs::absolute(script.scene).string();
+    if (!blend) {
+        description["addon"] = find_addon().string();  // its Draco library decodes the file
+    }
+    write_text_file(scratch / "cycles_render.py", embedded::cycles_render_py());
+    write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
+    write_text_file(scratch / script.name, script.text);
+    write_text_file(scratch / "job.json", description.dump());
+
+    std::vector<std::string> command = script.display;
+    command.insert(command.end(), {script.blender.string(), "-b", "--factory-startup"});
+    if (blend) {
+        command.push_back(fs::absolute(script.scene).string());
+    }
+    command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch / script.name).string(), "--",
+                                   (scratch / "job.json").string()});
+    std::optional<std::string> error;
+    const ProcessResult process = run_process(command, [&](std::string_view line) {
+        // Blender's own status lines end without a newline where the script's output follows.
+        const size_t at = line.find(k_event_prefix);
+        if (at == std::string_view::npos) {
+            if (on_line) on_line(line);
+            return;
+        }
+        if (error) {
+            return;
+        }
+        try {
+            const json event = json::parse(line.substr(at + k_event_prefix.size()));
+            const auto kind = event.at("event").get<std::string>();
+            if (kind == "error") {
+                error = event.at("message").get<std::string>();
+            } else {
+                on_event(kind, event);
+            }
+        } catch (const json::exception& exception) {
+            error = fmt::format("what Blender told cannot be read ({})", exception.what());
+        } catch (const Error& exception) {
+            error = exception.what();  // Blender is let end first
+        }
+    });
+    const bool failed = process.exit_code != 0 || error.has_value();
+    if (failed) {
+        log::debug("{}", process.output);
+    }
+    return {failed, error ? *error
+                          : fmt::format("Blender ended with code {} after \"{}\"", process.exit_code,
+                                        last_line(process.output))};
+}
+
+}  // namespace bounce

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs one of our scripts in Blender and listens to what it tells.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "evaluate/scratch_folder.h"
+
+namespace bounce {
+
+struct BlenderScript {
+    std::filesystem::path blender;
+    std::filesystem::path scene;       // .blend is opened by Blender, anything else imported by the script
+    std::string name;                  // of the script's file
+    std::string_view text;             // of the script; cycles_render.py and its importer lie beside it
+    nlohmann::json description;        // of the job; "scene" and "addon" are filled in
+    std::vector<std::string> display;  // what runs Blender where there is no display; may be empty
+};
+
+struct BlenderEnd {
+    bool failed = false;
+    std::string reason;  // the script's own, or how Blender ended; filled also where nothing failed
+};
+
+// Calls on_event for each event that the script tells, with its kind, until one fails, and on_line for all
+// other lines. An event "error", an event that on_event cannot read (nlohmann::json::exception) and an Error
+// that on_event throws are the end's reason. Files are written to the scratch folder.
+[[nodiscard]] BlenderEnd run_blender_script(
+    const BlenderScript& script, const ScratchFolder& scratch,
+    const std::function<void(const std::string& kind, const nlohmann::json& event)>& on_event,
+    const std::function<void(std::string_view)>& on_line = {});
+
+}  // namespace bounce
