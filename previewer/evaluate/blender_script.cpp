@@ -32,7 +32,7 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
     if (!blend) {
         description["addon"] = find_addon().string();  // its Draco library decodes the file
     }
-    write_text_file(scratch / "cycles_render.py", embedded::cycles_render_py());
+    write_text_file(scratch / "blender_job.py", embedded::blender_job_py());
     write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
     write_text_file(scratch / script.name, script.text);
     write_text_file(scratch / "job.json", description.dump());

@@ -19,7 +19,7 @@ struct BlenderScript {
     std::filesystem::path blender;
     std::filesystem::path scene;       // .blend is opened by Blender, anything else imported by the script
     std::string name;                  // of the script's file
-    std::string_view text;             // of the script; cycles_render.py and its importer lie beside it
+    std::string_view text;             // of the script; what it imports (blender_job.py, ...) lies beside it
     nlohmann::json description;        // of the job; "scene" and "addon" are filled in
     std::vector<std::string> display;  // what runs Blender where there is no display; may be empty
 };

@@ -8,23 +8,22 @@ settings of Eevee stay: soft shadows, shadow maps' sizes, ambient occlusion, scr
 and off what changes the picture after the light (bloom, motion blur, depth of field, compositing). Light probes are used
 where the scene has baked ones; none is baked, so indirect light is the world's alone, as in a file nobody prepared.
 
-Lines "BOUNCE {json}" on stdout: ready, note, error as cycles_render.py tells them, and
+Lines "BOUNCE {json}" on stdout: ready, note, error as blender_job.py tells them, and
 
     {event: "warm_up", frame, seconds}                                     a render that is not counted
     {event: "render", frame, samples, seconds, rss_peak_bytes}             median of `repeat` renders; output is written
     {event: "skip", frame, samples, expected_seconds}                      it would have taken longer than the limit
 """
 
-import json
 import statistics
 import sys
-import traceback
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from cycles_render import SceneError, frame_of, match_picture, open_scene, peak_memory, sentence, tell, timed_render
+from blender_job import (SceneError, frame_of, match_picture, open_job, peak_memory, referred_files, run, tell,
+                         timed_render)
 
 # The first render compiles shaders. The second is the first of steady state, and with its samples says how time grows.
 WARM_UPS = (1, 4)
@@ -82,25 +81,15 @@ def render_frame(scene, item, limit):
 
 
 def main():
-    job = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text(encoding="utf-8"))
-    scene, imported = open_scene(job)
-    if scene.camera is None:
-        raise SceneError("the scene has no active camera")
+    job, scene, imported = open_job()
     match_picture(scene, job["width"], job["height"])
     exposure = scene.cycles.film_exposure
     match_eevee(scene)
-    files = [bpy.path.abspath(path) for path in bpy.utils.blend_paths(absolute=True, packed=False)]
-    tell("ready", version=bpy.app.version_string, files=files, film_exposure=exposure)
+    tell("ready", version=bpy.app.version_string, files=referred_files(), film_exposure=exposure)
     for item in job["frames"]:
         frame_of(scene, imported, item["frame"])
         render_frame(scene, item, job["limit_seconds"])
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except Exception as error:
-        if not isinstance(error, SceneError):
-            traceback.print_exc(file=sys.stdout)
-        tell("error", message=sentence(error))
-        sys.exit(1)
+    run(main)

@@ -7,6 +7,7 @@
 
 namespace bounce::embedded {
 
+[[nodiscard]] std::string_view blender_job_py();
 [[nodiscard]] std::string_view cycles_render_py();
 [[nodiscard]] std::string_view cycles_import_gltf_py();
 [[nodiscard]] std::string_view eevee_render_py();

@@ -7,24 +7,22 @@ JOB.json: {scene, addon, width, height, frames: [{frame, lit, unlit}]}: two file
 without. Blender's own exporter writes them: modifiers applied, no animation, no compression, lights in watts per
 steradian ("unitless"), because the viewer has no exposure to take candelas back with.
 
-Lines "BOUNCE {json}" on stdout: note and error as cycles_render.py tells them, and
+Lines "BOUNCE {json}" on stdout: note and error as blender_job.py tells them, and
 
     {event: "ready", files}
     {event: "frame", frame, seconds, position, focal_point, view_up, view_angle, background}   in glTF's axes, degrees
 """
 
-import json
 import math
 import sys
 import time
-import traceback
 from pathlib import Path
 
 import bpy
 import mathutils
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from cycles_render import SceneError, frame_of, open_scene, sentence, tell
+from blender_job import SceneError, frame_of, open_job, referred_files, run, tell
 
 
 def gltf_axes(vector):
@@ -35,8 +33,6 @@ def gltf_axes(vector):
 def camera_view(scene, width, height):
     """What f3d's camera options take; a camera that they cannot say is refused."""
     camera = scene.camera
-    if camera is None:
-        raise SceneError("the scene has no active camera")
     if camera.type != "CAMERA" or camera.data.type != "PERSP":
         raise SceneError("f3d's options take a perspective camera, and the scene's is not one")
     data = camera.data
@@ -91,9 +87,8 @@ def export(path, lights):
 
 
 def main():
-    job = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text(encoding="utf-8"))
-    scene, imported = open_scene(job)
-    tell("ready", files=[bpy.path.abspath(path) for path in bpy.utils.blend_paths(absolute=True, packed=False)])
+    job, scene, imported = open_job()
+    tell("ready", files=referred_files())
     for item in job["frames"]:
         frame_of(scene, imported, item["frame"])
         view = camera_view(scene, job["width"], job["height"])
@@ -105,10 +100,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except Exception as error:
-        if not isinstance(error, SceneError):
-            traceback.print_exc(file=sys.stdout)
-        tell("error", message=sentence(error))
-        sys.exit(1)
+    run(main)
