@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -25,6 +26,7 @@ struct EvaluateArguments {
     EvaluateOptions options;
     std::string frames = "1";
     std::string size = "640x360";
+    std::string reference_spp = "auto";
     std::vector<int> cycles_spp;
     std::vector<std::string> peers = known_peers();
     std::filesystem::path output;
@@ -38,10 +40,25 @@ std::vector<int> rising(const std::vector<int>& numbers) {
 }
 
 // As many as tell something against such a reference: beyond it its own noise is measured.
-std::vector<int> default_cycles_spp(int reference_spp) {
+std::vector<int> default_cycles_spp(const ReferenceGoal& goal) {
     std::vector<int> ladder{1, 4, 16, 64, 256};
-    std::erase_if(ladder, [&](int spp) { return spp >= reference_spp; });
+    const int most = goal.spp > 0 ? goal.spp : goal.limit_spp;
+    std::erase_if(ladder, [&](int spp) { return spp >= most; });
     return ladder;
+}
+
+// A number of samples; 0 for "auto".
+int parse_reference_spp(const std::string& text) {
+    if (text == "auto") {
+        return 0;
+    }
+    int spp = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), spp);
+    if (code != std::errc{} || end != text.data() + text.size() || spp < 2 || spp % 2 != 0) {
+        throw usage_error(
+            "--reference-spp: give auto or an even number; a reference is two halves with different seeds");
+    }
+    return spp;
 }
 
 // Each once; "none" for none of them.
@@ -59,12 +76,12 @@ std::vector<std::string> chosen_peers(const std::vector<std::string>& named) {
 ExitCode run_evaluate(const CLI::App& command, EvaluateArguments arguments) {
     EvaluateOptions& options = arguments.options;
     options.frames = rising(parse_frames(arguments.frames));
-    options.cycles_spp = arguments.cycles_spp.empty() ? default_cycles_spp(options.reference_spp)
-                                                      : rising(arguments.cycles_spp);
+    options.reference.spp = parse_reference_spp(arguments.reference_spp);
+    options.cycles_spp =
+        arguments.cycles_spp.empty() ? default_cycles_spp(options.reference) : rising(arguments.cycles_spp);
     options.peers = chosen_peers(arguments.peers);
-    if (options.reference_spp < 2 || options.reference_spp % 2 != 0) {
-        throw usage_error(
-            "--reference-spp: give an even number; the reference is two halves with different seeds");
+    if (options.reference.spp > 0 && command.count("--reference-limit") > 0) {
+        throw usage_error("--reference-limit has no effect with a stated number of samples");
     }
     std::tie(options.width, options.height) = parse_size(arguments.size);
     options.bounce = executable_path();
@@ -95,7 +112,15 @@ void add_evaluate(CLI::App& app, Run& run) {
     command->add_option("--frames", arguments->frames, "Frames by Blender's numbers: 1,24 or 1-4")
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
-    command->add_option("--reference-spp", options.reference_spp, "Samples per pixel of the reference")
+    command
+        ->add_option("--reference-spp", arguments->reference_spp,
+                     "Samples per pixel of the reference; auto: until its noise floor is a tenth of the "
+                     "smallest error measured against it")
+        ->capture_default_str();
+    command
+        ->add_option("--reference-limit", options.reference.limit_spp,
+                     "Samples per pixel at which auto stops")
+        ->check(CLI::Range(2, 1 << 24))
         ->capture_default_str();
     command
         ->add_option(

@@ -2,6 +2,7 @@
 #include "core/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -26,15 +27,26 @@ void Progress::step(std::string_view note) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double left = elapsed / done_ * (total_ - done_);
     if (!terminal_) {
-        fmt::print(stderr, "{} {}/{}: {}\n", title_, done_, total_, note);
+        fmt::print(stderr, "{} {}/{}: {}{}\n", title_, done_, total_, note,
+                   done_ < total_ ? fmt::format("; {} left", rough_time(left)) : "");
         return;
     }
     constexpr int width = 24;
     const int filled = std::clamp(width * done_ / total_, 0, width);
     // \x1b[K clears what a longer line before left behind.
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}, {:.0f} s left\x1b[K", title_, "", filled, "",
-               width - filled, done_, total_, note, left);
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}, {} left\x1b[K", title_, "", filled, "",
+               width - filled, done_, total_, note, rough_time(left));
     std::fflush(stderr);
+}
+
+std::string rough_time(double seconds) {
+    const auto whole = std::max(std::llround(seconds), 0LL);
+    if (whole < 90) {
+        return fmt::format("{} s", whole);
+    }
+    const long long minutes = (whole + 30) / 60;
+    return minutes < 60 ? fmt::format("{} min", minutes)
+                        : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
 }  // namespace bounce

@@ -8,6 +8,7 @@
 namespace bounce {
 
 // Progress of long work on stderr: a bar that is redrawn in place on a terminal, one line a step elsewhere.
+// Both tell the time left, as if all steps took the same.
 class Progress {
   public:
     Progress(std::string title, int total);
@@ -27,5 +28,8 @@ class Progress {
     bool terminal_;
     std::chrono::steady_clock::time_point start_;
 };
+
+// "45 s", "12 min", "1 h 5 min".
+[[nodiscard]] std::string rough_time(double seconds);
 
 }  // namespace bounce

@@ -46,9 +46,10 @@ bool same(const CyclesRender& a, const CyclesRender& b) {
 
 }  // namespace
 
-CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path& blender,
-                               const RenderCache& cache, const CyclesKey& key, bool fresh,
-                               const std::function<void(const CyclesRender&)>& on_render) {
+CyclesReport run_cycles_cached(
+    const CyclesJob& job, const std::filesystem::path& blender, const RenderCache& cache,
+    const CyclesKey& key, bool fresh,
+    const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render) {
     CyclesReport kept;
     std::vector<CyclesRender> done;
     CyclesJob missing = job;
@@ -65,7 +66,7 @@ CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path
                 write_image(render.output, found->image, {}, ExrValues::full);
                 done.push_back(render);
                 if (on_render) {
-                    on_render(render);
+                    on_render(render, kept);
                 }
                 continue;
             } catch (const json::exception& error) {
@@ -95,7 +96,7 @@ CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path
             item.engine = engine_of(so_far);
             cache.store_or_warn(key(render), item, so_far.files);
             if (on_render) {
-                on_render(render);
+                on_render(render, so_far);
             }
         });
         done.insert(done.end(), report.renders.begin(), report.renders.end());

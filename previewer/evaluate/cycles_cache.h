@@ -17,8 +17,9 @@ using CyclesKey = std::function<std::string(const CyclesRender&)>;
 // run_cycles, but a picture that is in the cache is not rendered again, and each new one is kept as soon as
 // it is done: a killed run goes on behind the last picture. Outputs of both kinds are written. With fresh
 // nothing is taken from the cache.
-[[nodiscard]] CyclesReport run_cycles_cached(const CyclesJob& job, const std::filesystem::path& blender,
-                                             const RenderCache& cache, const CyclesKey& key, bool fresh,
-                                             const std::function<void(const CyclesRender&)>& on_render = {});
+[[nodiscard]] CyclesReport run_cycles_cached(
+    const CyclesJob& job, const std::filesystem::path& blender, const RenderCache& cache,
+    const CyclesKey& key, bool fresh,
+    const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});
 
 }  // namespace bounce

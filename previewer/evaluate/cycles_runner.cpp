@@ -146,7 +146,8 @@ std::string blender_version(const fs::path& blender) {
 }
 
 std::string cycles_scripts_hash() {
-    return sha256_of_text(std::string(embedded::blender_job_py()) + std::string(embedded::cycles_render_py()) +
+    return sha256_of_text(std::string(embedded::blender_job_py()) +
+                          std::string(embedded::cycles_render_py()) +
                           std::string(embedded::cycles_import_gltf_py()));
 }
 

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@
 #include "core/progress.h"
 #include "evaluate/cache.h"
 #include "evaluate/cycles_cache.h"
-#include "evaluate/given_reference.h"
+#include "evaluate/reference_set.h"
 #include "evaluate/report.h"
 #include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
@@ -26,10 +27,6 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-// Seeds of the reference's halves; the ladder takes another, so that no error is shared with them.
-constexpr int k_seed_half1 = 1;
-constexpr int k_seed_half2 = 2;
-constexpr int k_seed_ladder = 3;
 // Renders of few samples are over in a fraction of a second; the median of three steadies them.
 constexpr int k_quick_spp = 4;
 constexpr int k_quick_repeat = 3;
@@ -68,22 +65,23 @@ class Evaluator {
             blender_ = find_blender(options.source.blender);
             result_.blender = blender_version(blender_);
         }
-        load_references();
+        references_.emplace(reference_source(), cache_folder() / "references", render_cache_,
+                            [this](const CyclesRender& render) { return cycles_key(render); });
     }
 
     Evaluation run() {
-        const auto missing = static_cast<size_t>(std::count_if(
-            references_.begin(), references_.end(), [](const auto& item) { return !item.second; }));
-        const size_t ladder = options_.cycles_spp.size() * options_.frames.size();
         StoredRuns runs(options_, gltf_, result_.scene_sha256, scratch_.path());
-        Progress progress("evaluate", static_cast<int>(runs.missing() + 2 * missing + ladder));
-        // The quick half first: what is wrong with it shows before Cycles starts its minutes.
-        previews_ = runs.results([&](const std::string& note) { progress.step(note); });
-        run_peers();
-        if (needs_cycles()) {
-            render_with_cycles(progress);
+        // The quick parts first: what is wrong with them shows before Cycles starts its minutes, and how
+        // exact the reference has to be follows from their errors.
+        {
+            Progress progress("evaluate", static_cast<int>(runs.missing()));
+            previews_ = runs.results([&](const std::string& note) { progress.step(note); });
         }
-        collect_references();
+        run_peers();
+        if (!options_.cycles_spp.empty()) {
+            render_ladder();
+        }
+        render_references();
         measure_cycles();
         measure_peers();
         measure_previews();
@@ -97,52 +95,69 @@ class Evaluator {
         return options_.given_reference.empty() || !options_.cycles_spp.empty();
     }
 
-    [[nodiscard]] ReferenceKey key_of(int frame) const {
-        return {
-            scene_hash_,      frame,           options_.width,       options_.height, options_.reference_spp,
-            options_.bounces, result_.blender, cycles_scripts_hash()};
+    [[nodiscard]] ReferenceSet::Source reference_source() const {
+        return {options_.scene,  scene_hash_,      options_.frames,    options_.width,
+                options_.height, options_.bounces, options_.reference, options_.given_reference,
+                blender_,        result_.blender};
     }
 
-    void load_references() {
-        for (const int frame : options_.frames) {
-            references_[frame] = options_.given_reference.empty()
-                                     ? load_reference(cache_folder() / "references", key_of(frame))
-                                     : load_given_reference(options_.given_reference, frame, options_.width,
-                                                            options_.height, options_.bounces, scene_hash_);
+    void render_references() {
+        const auto report = references_->render(
+            [this](int frame, const Image& reference) { return smallest_error(frame, reference); });
+        if (report && options_.cycles_spp.empty()) {
+            result_.cycles = *report;
         }
+        result_.references = references_->all();
     }
 
-    void render_with_cycles(Progress& progress) {
+    // The least relMSE of all that was rendered of a frame, whoever rendered it.
+    [[nodiscard]] double smallest_error(int frame, const Image& reference) const {
+        double least = std::numeric_limits<double>::infinity();
+        const auto take = [&](const Image& image) {
+            const double error = relmse(image, reference);
+            least = std::isfinite(error) ? std::min(least, error) : least;
+        };
+        for (const PreviewResult& run : previews_) {
+            for (const PreviewFrame& item : run.frames) {
+                if (item.frame == frame) take(read_image(item.image));
+            }
+        }
+        for (const CyclesRender& render : result_.cycles.renders) {
+            if (render.frame == frame && render.seed == k_seed_ladder) take(read_image(render.output));
+        }
+        for (const PeerResult& peer : result_.peers) {
+            for (const PeerPoint& point : peer.points) {
+                for (const PeerFrame& item : point.frames) {
+                    if (item.frame == frame) take(item.render.image);
+                }
+            }
+        }
+        return least;
+    }
+
+    void render_ladder() {
         CyclesJob job;
         job.scene = options_.scene;
         job.width = options_.width;
         job.height = options_.height;
         job.bounces = options_.bounces;
-        const auto add = [&](int frame, int spp, int seed) {
-            job.renders.push_back({frame,
-                                   spp,
-                                   seed,
-                                   spp <= k_quick_spp ? k_quick_repeat : 1,
-                                   scratch_ / fmt::format("cycles_{}_{}_{}.exr", frame, spp, seed),
-                                   0.0,
-                                   0.0,
-                                   0,
-                                   {}});
-        };
         for (const int frame : options_.frames) {
             for (const int spp : options_.cycles_spp) {
-                add(frame, spp, k_seed_ladder);
-            }
-            if (!references_[frame]) {
-                add(frame, options_.reference_spp / 2, k_seed_half1);
-                add(frame, options_.reference_spp / 2, k_seed_half2);
+                CyclesRender render;
+                render.frame = frame;
+                render.spp = spp;
+                render.seed = k_seed_ladder;
+                render.repeat = spp <= k_quick_spp ? k_quick_repeat : 1;
+                render.output = scratch_ / fmt::format("cycles_{}_{}.exr", frame, spp);
+                job.renders.push_back(render);
             }
         }
+        Progress progress("Cycles", static_cast<int>(job.renders.size()));
         result_.cycles = run_cycles_cached(
             job, blender_, render_cache_, [&](const CyclesRender& render) { return cycles_key(render); },
             options_.fresh,
-            [&](const CyclesRender& render) {
-                progress.step(fmt::format("Cycles, frame {}, {} spp: {:.2f} s{}", render.frame, render.spp,
+            [&](const CyclesRender& render, const CyclesReport&) {
+                progress.step(fmt::format("frame {}, {} spp: {:.2f} s{}", render.frame, render.spp,
                                           render.seconds,
                                           render.measured.empty() ? "" : " (from an earlier run)"));
             });
@@ -154,40 +169,9 @@ class Evaluator {
                                     render.seed, options_.bounces, render.repeat, cycles_scripts_hash()));
     }
 
-    void collect_references() {
-        for (const int frame : options_.frames) {
-            if (!references_[frame]) {
-                references_[frame] = reference_from_halves(frame);
-            }
-            result_.references.push_back(*references_[frame]);
-        }
-        for (const CyclesRender& render : result_.cycles.renders) {
-            if (render.seed != k_seed_ladder) {
-                render_cache_.remove(cycles_key(render));  // half of a reference, which holds it now
-            }
-        }
-    }
-
-    Reference reference_from_halves(int frame) {
-        const CyclesRender& half1 = find_render(frame, options_.reference_spp / 2, k_seed_half1);
-        const CyclesRender& half2 = find_render(frame, options_.reference_spp / 2, k_seed_half2);
-        Reference reference = make_reference(read_image(half1.output), read_image(half2.output));
-        if (!std::isfinite(reference.noise_floor)) {
-            throw input_error(
-                fmt::format("Cycles' reference of frame {} of {} has values that are not numbers", frame,
-                            options_.scene.string()));
-        }
-        reference.frame = frame;
-        reference.seconds = half1.seconds + half2.seconds;
-        store_reference(cache_folder() / "references", key_of(frame), reference, result_.cycles.files);
-        return reference;
-    }
-
-    [[nodiscard]] const CyclesRender& find_render(int frame, int spp, int seed) const {
+    [[nodiscard]] const CyclesRender& find_render(int frame, int spp) const {
         return *std::find_if(result_.cycles.renders.begin(), result_.cycles.renders.end(),
-                             [&](const auto& render) {
-                                 return render.frame == frame && render.spp == spp && render.seed == seed;
-                             });
+                             [&](const auto& render) { return render.frame == frame && render.spp == spp; });
     }
 
     void measure_cycles() {
@@ -202,9 +186,9 @@ class Evaluator {
             std::string measured;
             const std::string label = fmt::format("{} spp", spp);
             for (const int frame : options_.frames) {
-                const CyclesRender& render = find_render(frame, spp, k_seed_ladder);
+                const CyclesRender& render = find_render(frame, spp);
                 Image image = read_image(render.output);
-                frames.push_back(measure(frame, render.seconds, image, references_[frame]->image));
+                frames.push_back(measure(frame, render.seconds, image, references_->at(frame).image));
                 memory = std::max(memory, render.rss_peak_bytes);
                 measured = render.measured.empty() ? measured : render.measured;
                 setup += render.setup_seconds / static_cast<double>(options_.frames.size());
@@ -225,7 +209,8 @@ class Evaluator {
             std::vector<FrameError> frames;
             for (const PreviewFrame& frame : previews_[i].frames) {
                 Image image = read_image(frame.image);
-                frames.push_back(measure(frame.frame, frame.seconds, image, references_[frame.frame]->image));
+                frames.push_back(
+                    measure(frame.frame, frame.seconds, image, references_->at(frame.frame).image));
                 if (!frame.all_seconds.empty()) {
                     const auto [least, most] =
                         std::minmax_element(frame.all_seconds.begin(), frame.all_seconds.end());
@@ -270,8 +255,8 @@ class Evaluator {
                 CurvePoint values;
                 for (const PeerFrame& frame : point.frames) {
                     const CachedRender& render = frame.render;
-                    frames.push_back(
-                        measure(frame.frame, render.seconds, render.image, references_[frame.frame]->image));
+                    frames.push_back(measure(frame.frame, render.seconds, render.image,
+                                             references_->at(frame.frame).image));
                     values.startup_seconds = render.startup_seconds;
                     values.rss_peak_bytes = std::max(values.rss_peak_bytes, render.rss_peak_bytes);
                     values.measured = frame.cached ? render.date : values.measured;
@@ -315,9 +300,6 @@ class Evaluator {
         result_.height = options_.height;
         result_.scene_hash = scene_hash_;
         result_.given_reference = options_.given_reference;
-        result_.reference_spp = options_.given_reference.empty()
-                                    ? options_.reference_spp
-                                    : given_reference_spp(options_.given_reference, options_.frames.front());
         result_.bounces = options_.bounces;
         result_.frames = options_.frames;
         result_.machine = this_machine();
@@ -335,7 +317,7 @@ class Evaluator {
     fs::path blender_;
     std::string scene_hash_;
     RenderCache render_cache_;
-    std::map<int, std::optional<Reference>> references_;
+    std::optional<ReferenceSet> references_;
     std::vector<PreviewResult> previews_;
     Evaluation result_;
 };

@@ -15,6 +15,7 @@
 #include "evaluate/peers.h"
 #include "evaluate/preview_run.h"
 #include "evaluate/reference.h"
+#include "evaluate/reference_growth.h"
 #include "image/image.h"
 
 namespace bounce {
@@ -24,7 +25,7 @@ struct EvaluateOptions {
     std::vector<int> frames{1};   // Blender's numbers
     int width = 640;
     int height = 360;
-    int reference_spp = 1024;  // even: two halves are rendered
+    ReferenceGoal reference;
     std::vector<int> cycles_spp{1, 4, 16, 64};
     int bounces = 1;
     int repeat = 5;  // renders of each frame by Bounce, of which the median counts
@@ -71,7 +72,6 @@ struct Evaluation {
     std::string date;  // UTC, ISO 8601
     int width = 0;
     int height = 0;
-    int reference_spp = 0;
     int bounces = 1;
     std::vector<int> frames;
     Machine machine;

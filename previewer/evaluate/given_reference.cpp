@@ -50,7 +50,7 @@ std::optional<T> number(const ImageAttributes& attributes, const char* name, con
 }  // namespace
 
 ImageAttributes reference_attributes(const Reference& reference, const std::string& scene,
-                                     const std::string& scene_hash, int bounces, int spp) {
+                                     const std::string& scene_hash, int bounces) {
     ImageAttributes attributes{{k_scene, scene},
                                {k_scene_hash, scene_hash},
                                {k_frame, std::to_string(reference.frame)},
@@ -59,8 +59,8 @@ ImageAttributes reference_attributes(const Reference& reference, const std::stri
     if (std::isfinite(reference.noise_floor)) {
         attributes[k_noise_floor] = fmt::format("{}", reference.noise_floor);
     }
-    if (spp > 0) {
-        attributes[k_spp] = std::to_string(spp);
+    if (reference.spp > 0) {
+        attributes[k_spp] = std::to_string(reference.spp);
     }
     return attributes;
 }
@@ -98,12 +98,8 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
     reference.noise_floor =
         number<double>(header, k_noise_floor, path).value_or(std::numeric_limits<double>::quiet_NaN());
     reference.seconds = number<double>(header, k_seconds, path).value_or(0.0);
+    reference.spp = number<int>(header, k_spp, path).value_or(0);
     return reference;
-}
-
-int given_reference_spp(const std::string& name, int frame) {
-    const fs::path path = path_of(name, frame);
-    return number<int>(read_attributes(path), k_spp, path).value_or(0);
 }
 
 }  // namespace bounce

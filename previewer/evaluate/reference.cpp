@@ -31,8 +31,10 @@ std::string cache_name(const ReferenceKey& key) {
     return sha256_of_text(text_of(key)).substr(0, 32);
 }
 
-Reference make_reference(const Image& half1, const Image& half2) {
+Reference make_reference(const Image& half1, const Image& half2, int spp) {
     Reference reference;
+    reference.spp = spp;
+    reference.batches = 1;
     reference.image = half1;
     for (size_t i = 0; i < half1.rgb.size(); ++i) {
         reference.image.rgb[i] = 0.5F * (half1.rgb[i] + half2.rgb[i]);
@@ -41,22 +43,33 @@ Reference make_reference(const Image& half1, const Image& half2) {
     return reference;
 }
 
+Reference merge(const Reference& a, const Reference& b) {
+    const double all = a.spp + b.spp;
+    const double part_a = a.spp / all;
+    const double part_b = b.spp / all;
+    Reference merged = a;
+    for (size_t i = 0; i < merged.image.rgb.size(); ++i) {
+        merged.image.rgb[i] = static_cast<float>(part_a * a.image.rgb[i] + part_b * b.image.rgb[i]);
+    }
+    merged.noise_floor = part_a * part_a * a.noise_floor + part_b * part_b * b.noise_floor;
+    merged.seconds = a.seconds + b.seconds;
+    merged.spp = a.spp + b.spp;
+    merged.batches = a.batches + b.batches;
+    return merged;
+}
+
 std::optional<Reference> load_reference(const fs::path& folder, const ReferenceKey& key) {
     const std::string name = cache_name(key);
-    const fs::path image = folder / (name + ".exr");
     const fs::path record = folder / (name + ".json");
     const fs::path files = folder / (name + ".files.json");
     std::error_code ignored;
-    if (!fs::is_regular_file(image, ignored) || !files_unchanged(files)) {
-        return std::nullopt;
-    }
-    std::ifstream in(record);
-    const auto json = nlohmann::json::parse(in, nullptr, false);
-    if (!json.is_object() || !json.contains("noise_floor_relmse") || !json.contains("seconds")) {
-        log::warning("a cached reference is rendered again: {} is damaged", record.string());
+    if (!fs::is_regular_file(record, ignored) || !files_unchanged(files)) {
         return std::nullopt;
     }
     try {
+        std::ifstream in(record);
+        const auto json = nlohmann::json::parse(in);
+        const fs::path image = folder / json.at("image").get<fs::path>().filename();
         // A foreign picture or record under this name is no reference of ours.
         if (json.at("key") != text_of(key) || json.at("image_sha256") != sha256_of_file(image)) {
             log::warning("a cached reference is rendered again: {} is not what {} tells of", image.string(),
@@ -66,8 +79,10 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
         Reference reference;
         reference.frame = key.frame;
         reference.image = read_image(image);
-        reference.noise_floor = json["noise_floor_relmse"];
-        reference.seconds = json["seconds"];
+        reference.noise_floor = json.at("noise_floor_relmse");
+        reference.seconds = json.at("seconds");
+        reference.spp = json.at("spp");
+        reference.batches = json.at("batches");
         reference.cached = true;
         if (reference.image.width != key.width || reference.image.height != key.height) {
             log::warning("a cached reference is rendered again: {} is {} x {}, not {} x {}", image.string(),
@@ -87,20 +102,30 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
 void store_reference(const fs::path& folder, const ReferenceKey& key, const Reference& reference,
                      const std::vector<fs::path>& scene_files) {
     const std::string name = cache_name(key);
-    // Full floats: an evaluation that finds the reference gives the figures of the one that rendered it.
-    write_image(folder / (name + ".exr"), reference.image, {}, ExrValues::full);
-    write_text_file(folder / (name + ".json"),
-                    nlohmann::json{{"noise_floor_relmse", reference.noise_floor},
-                                   {"seconds", reference.seconds},
-                                   {"key", text_of(key)},
-                                   {"image_sha256", sha256_of_file(folder / (name + ".exr"))},
-                                   {"frame", key.frame},
-                                   {"spp", key.spp},
-                                   {"blender", key.blender}}
-                            .dump(2) +
-                        "\n");
-    // Last: a reference counts as present once its list of files is.
+    const fs::path image = folder / fmt::format("{}-{}.exr", name, reference.spp);
+    // Before the record: a reference counts as present once both are there.
     write_file_hashes(folder / (name + ".files.json"), hash_files(scene_files));
+    // Full floats: an evaluation that finds the reference gives the figures of the one that rendered it.
+    write_image(image, reference.image, {}, ExrValues::full);
+    write_text_file(folder / (name + ".json"), nlohmann::json{{"noise_floor_relmse", reference.noise_floor},
+                                                              {"seconds", reference.seconds},
+                                                              {"key", text_of(key)},
+                                                              {"image", image.filename().string()},
+                                                              {"image_sha256", sha256_of_file(image)},
+                                                              {"frame", key.frame},
+                                                              {"spp", reference.spp},
+                                                              {"batches", reference.batches},
+                                                              {"blender", key.blender}}
+                                                       .dump(2) +
+                                                   "\n");
+    // The record has let go of the image with fewer samples only now: a run that is killed in between keeps
+    // one of the two.
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string file = entry.path().filename().string();
+        if (file.starts_with(name + "-") && entry.path().extension() == ".exr" && entry.path() != image) {
+            fs::remove(entry.path());
+        }
+    }
 }
 
 }  // namespace bounce

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -41,18 +42,53 @@ double mean_of(const std::vector<Reference>& references, double Reference::*memb
     return sum / static_cast<double>(references.size());
 }
 
+int fewest_spp(const Evaluation& evaluation) {
+    int fewest = std::numeric_limits<int>::max();
+    for (const Reference& reference : evaluation.references) {
+        fewest = std::min(fewest, reference.spp);
+    }
+    return fewest;
+}
+
+// "1024 spp", or "1024 to 4096 spp" where the frames' references differ.
+std::string spp_text(const Evaluation& evaluation) {
+    int most = 0;
+    for (const Reference& reference : evaluation.references) {
+        most = std::max(most, reference.spp);
+    }
+    const int fewest = fewest_spp(evaluation);
+    return fewest == most ? fmt::format("{} spp", most) : fmt::format("{} to {} spp", fewest, most);
+}
+
+// The least that any engine has in a frame: what the noise floor has to stay below.
+double smallest_relmse(const Evaluation& evaluation, int frame) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Curve& curve : evaluation.curves) {
+        for (const CurvePoint& point : curve.points) {
+            for (const FrameError& item : point.frames) {
+                if (item.frame == frame && std::isfinite(item.relmse)) {
+                    least = std::min(least, item.relmse);
+                }
+            }
+        }
+    }
+    return least;
+}
+
 ordered_json reference_json(const Evaluation& evaluation) {
     ordered_json frames = ordered_json::array();
     for (const Reference& reference : evaluation.references) {
         frames.push_back({{"frame", reference.frame},
                           {"seconds", number(reference.seconds)},
                           {"noise_floor_relmse", number(reference.noise_floor)},
+                          {"spp", reference.spp},
+                          {"smallest_relmse", number(smallest_relmse(evaluation, reference.frame))},
                           {"cached", reference.cached}});
     }
     const bool given = !evaluation.given_reference.empty();
     return {{"engine", given ? "a given image: " + evaluation.given_reference : "Cycles (CPU)"},
             {"version", evaluation.cycles.version},
-            {"spp", evaluation.reference_spp},
+            {"spp", fewest_spp(evaluation)},
             {"seconds", number(mean_of(evaluation.references, &Reference::seconds))},
             {"noise_floor_relmse", number(mean_of(evaluation.references, &Reference::noise_floor))},
             {"bounces", evaluation.bounces},
@@ -245,9 +281,8 @@ std::string results_table(const Evaluation& evaluation) {
                                    mean_of(evaluation.references, &Reference::noise_floor));
     }
     table += fmt::format(
-        "* on the Pareto front. Reference: Cycles {}, {} spp, {:.1f} s a frame, noise floor {:.2g}.\n",
-        evaluation.cycles.version, evaluation.reference_spp,
-        mean_of(evaluation.references, &Reference::seconds),
+        "* on the Pareto front. Reference: Cycles {}, {}, {:.1f} s a frame, noise floor {:.2g}.\n",
+        evaluation.cycles.version, spp_text(evaluation), mean_of(evaluation.references, &Reference::seconds),
         mean_of(evaluation.references, &Reference::noise_floor));
     return table;
 }
@@ -285,9 +320,9 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
         return ImageAttributes{{"bounce:scene", evaluation.scene}, {"bounce:frame", std::to_string(frame)}};
     };
     for (const Reference& reference : evaluation.references) {
-        write_image(folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
-                    reference_attributes(reference, evaluation.scene, evaluation.scene_hash,
-                                         evaluation.bounces, evaluation.reference_spp));
+        write_image(
+            folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
+            reference_attributes(reference, evaluation.scene, evaluation.scene_hash, evaluation.bounces));
     }
     for (const Picture& picture : evaluation.pictures) {
         if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {

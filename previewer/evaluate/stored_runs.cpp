@@ -77,20 +77,12 @@ PreviewResult StoredRuns::measure(size_t index) const {
 }
 
 std::vector<PreviewResult> StoredRuns::results(const std::function<void(const std::string&)>& on_run) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    const size_t total = missing();
-    size_t done = 0;
     for (size_t i = 0; i < results_.size(); ++i) {
         if (!results_[i]) {
             results_[i] = measure(i);
-            ++done;
-            const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-            const double left = elapsed / static_cast<double>(done) * static_cast<double>(total - done);
             const PreviewRun& run = run_at(i);
-            on_run(fmt::format("{}, {}: {:.3f} s a frame{}", run.name, run.label,
-                               results_[i]->frames.front().seconds,
-                               done < total ? fmt::format("; {} left for Bounce", rough_time(left)) : ""));
+            on_run(fmt::format("{}, {}: {:.3f} s a frame", run.name, run.label,
+                               results_[i]->frames.front().seconds));
         }
     }
     std::vector<PreviewResult> all;
@@ -129,16 +121,6 @@ PreviewResult merge_rounds(const std::vector<PreviewResult>& rounds, const std::
         }
     }
     return merged;
-}
-
-std::string rough_time(double seconds) {
-    const auto whole = std::max(std::llround(seconds), 0LL);
-    if (whole < 90) {
-        return fmt::format("{} s", whole);
-    }
-    const long long minutes = (whole + 30) / 60;
-    return minutes < 60 ? fmt::format("{} min", minutes)
-                        : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
 }  // namespace bounce

@@ -46,7 +46,4 @@ class StoredRuns {
 // the renderer did not repeat itself. Throws input_error where a picture cannot be read.
 [[nodiscard]] PreviewResult merge_rounds(const std::vector<PreviewResult>& rounds, const std::string& run);
 
-// "40 s", "3 min", "1 h 20 min": rounded for people.
-[[nodiscard]] std::string rough_time(double seconds);
-
 }  // namespace bounce

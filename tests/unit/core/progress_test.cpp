@@ -14,7 +14,15 @@ TEST(ProgressTest, OneLineAStepAwayFromATerminal) {
         progress.step("frame 1");
         progress.step("frame 2");
     }
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "Rendering 1/2: frame 1\nRendering 2/2: frame 2\n");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "Rendering 1/2: frame 1; 0 s left\nRendering 2/2: frame 2\n");
+}
+
+TEST(RoughTime, IsForPeople) {
+    EXPECT_EQ(rough_time(0.2), "0 s");
+    EXPECT_EQ(rough_time(89), "89 s");
+    EXPECT_EQ(rough_time(200), "3 min");
+    EXPECT_EQ(rough_time(4800), "1 h 20 min");
 }
 
 TEST(ProgressTest, NoStepsAndMoreThanAnnounced) {

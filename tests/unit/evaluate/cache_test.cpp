@@ -2,6 +2,7 @@
 #include "evaluate/cache.h"
 
 #include <fstream>
+#include <random>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 #include "evaluate/reference.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
+#include "image/metrics.h"
 #include "temporary_folder.h"
 
 namespace bounce {
@@ -115,15 +117,61 @@ Image constant(float value) {
 
 TEST(Reference, NoiseFloorByHand) {
     // Halves 1.1 and 0.9: their mean 1 is off by an expected (0.2 / 2)^2 = 0.01, over 1 + 0.01.
-    const Reference reference = make_reference(constant(1.1F), constant(0.9F));
+    const Reference reference = make_reference(constant(1.1F), constant(0.9F), 64);
     EXPECT_NEAR(reference.image.rgb[0], 1.0F, 1e-6);
     EXPECT_NEAR(reference.noise_floor, 0.01 / 1.01, 1e-6);
+}
+
+// Weights 1/4 and 3/4; variances of independent means add with the squares of their weights.
+TEST(Reference, MergesByHand) {
+    Reference a = make_reference(constant(1.1F), constant(0.9F), 100);
+    Reference b = make_reference(constant(1.25F), constant(1.15F), 300);
+    a.seconds = 2.0;
+    b.seconds = 5.0;
+    const Reference merged = merge(a, b);
+    EXPECT_NEAR(merged.image.rgb[0], 0.25 * 1.0 + 0.75 * 1.2, 1e-6);
+    EXPECT_NEAR(merged.noise_floor, 0.0625 * a.noise_floor + 0.5625 * b.noise_floor, 1e-9);
+    EXPECT_EQ(merged.spp, 400);
+    EXPECT_EQ(merged.batches, 2);
+    EXPECT_EQ(merged.seconds, 7.0);
+}
+
+// The floor's estimate against what it estimates: many batches of known noise around a known picture.
+TEST(Reference, FloorOfManyBatchesIsTheErrorOfTheirMean) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> noise(0.0F, 0.1F);
+    const auto noisy = [&] {
+        Image image(64, 64);
+        for (float& value : image.rgb) value = 1.0F + noise(random);
+        return image;
+    };
+    Reference sum = make_reference(noisy(), noisy(), 128);
+    for (int i = 0; i < 7; ++i) {
+        sum = merge(sum, make_reference(noisy(), noisy(), 128));
+    }
+    Image exact(64, 64);
+    std::fill(exact.rgb.begin(), exact.rgb.end(), 1.0F);
+    const double error = relmse(exact, sum.image);
+    EXPECT_NEAR(error, 0.01 / 16 / 1.01, 5e-5);
+    EXPECT_NEAR(sum.noise_floor, error, 0.05 * error) << "12,288 values: 1.3 % is one standard deviation";
+}
+
+TEST(Reference, OneWithMoreSamplesTakesThePlace) {
+    const TemporaryFolder folder;
+    const Reference first = make_reference(constant(0.75F), constant(0.25F), 64);
+    store_reference(folder.path(), k_key, first, {});
+    store_reference(folder.path(), k_key, merge(first, first), {});
+    const auto found = load_reference(folder.path(), k_key);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->spp, 128);
+    EXPECT_EQ(found->batches, 2);
+    EXPECT_FALSE(fs::exists(folder / (cache_name(k_key) + "-64.exr")));
 }
 
 TEST(Reference, IsFoundAgainUntilSomethingChanges) {
     const TemporaryFolder folder;
     std::ofstream(folder / "texture.png") << "one";
-    Reference reference = make_reference(constant(0.75F), constant(0.25F));
+    Reference reference = make_reference(constant(0.75F), constant(0.25F), 64);
     reference.seconds = 12.5;
     EXPECT_FALSE(load_reference(folder.path(), k_key));
     store_reference(folder.path(), k_key, reference, {folder / "texture.png"});
@@ -144,8 +192,12 @@ TEST(Reference, IsFoundAgainUntilSomethingChanges) {
 
 TEST(Reference, ADamagedFileIsRenderedAgain) {
     const TemporaryFolder folder;
-    store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F)), {});
-    std::ofstream(folder / (cache_name(k_key) + ".exr")) << "cut";
+    store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+    std::ofstream(folder / (cache_name(k_key) + "-64.exr")) << "cut";
+    EXPECT_FALSE(load_reference(folder.path(), k_key));
+    store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+    EXPECT_TRUE(load_reference(folder.path(), k_key));
+    std::ofstream(folder / (cache_name(k_key) + ".json")) << "{\"image\": ";
     EXPECT_FALSE(load_reference(folder.path(), k_key));
 }
 
@@ -157,15 +209,15 @@ TEST(Reference, AForeignFileIsRenderedAgain) {
     key.height = 2;
     ReferenceKey other = key;
     other.frame = 2;
-    const Reference reference = make_reference(constant(0.5F), constant(0.5F));
+    const Reference reference = make_reference(constant(0.5F), constant(0.5F), 64);
     store_reference(folder.path(), key, reference, {});
-    store_reference(folder.path(), other, make_reference(constant(0.7F), constant(0.7F)), {});
+    store_reference(folder.path(), other, make_reference(constant(0.7F), constant(0.7F), 64), {});
     ASSERT_TRUE(load_reference(folder.path(), key));
     const auto take = [&](const char* extension) {
         fs::copy_file(folder / (cache_name(other) + extension), folder / (cache_name(key) + extension),
                       fs::copy_options::overwrite_existing);
     };
-    take(".exr");
+    take("-64.exr");
     EXPECT_FALSE(load_reference(folder.path(), key)) << "another picture beside its record";
     take(".json");
     EXPECT_FALSE(load_reference(folder.path(), key)) << "another whole reference";

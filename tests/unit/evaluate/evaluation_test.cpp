@@ -33,7 +33,7 @@ class EvaluateTest : public testing::Test {
         options_.frames = {1, 24};
         options_.width = 8;
         options_.height = 4;
-        options_.reference_spp = 32;
+        options_.reference.spp = 32;
         options_.cycles_spp = {1, 4};
         options_.bounce = test::fake_bounce(folder_.path());
         options_.source.blender = test::fake_blender(folder_.path());
@@ -44,6 +44,14 @@ class EvaluateTest : public testing::Test {
     [[nodiscard]] long calls(const std::string& name) const {
         std::ifstream in(folder_ / name);
         return std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
+    }
+
+    // The description of each job that Blender was started with, in order.
+    [[nodiscard]] std::vector<std::string> blender_jobs() const {
+        std::ifstream in(folder_ / "blender_calls");
+        std::vector<std::string> jobs;
+        for (std::string line; std::getline(in, line);) jobs.push_back(line);
+        return jobs;
     }
 
     TemporaryFolder folder_;
@@ -78,12 +86,10 @@ TEST_F(EvaluateTest, RendersAReferenceOnce) {
     const Evaluation again = evaluate(options_);
     EXPECT_TRUE(again.references[0].cached);
     EXPECT_EQ(again.references[0].seconds, 64.0) << "its time is remembered";
-    std::ifstream in(folder_ / "blender_calls");
-    std::string first;
-    std::string second;
-    std::getline(in, first);
-    EXPECT_NE(first.find("\"spp\": 16"), std::string::npos);
-    EXPECT_FALSE(std::getline(in, second)) << "the ladder is kept too";
+    const std::vector<std::string> jobs = blender_jobs();
+    ASSERT_GE(jobs.size(), 2U);
+    EXPECT_NE(jobs[1].find("\"spp\": 16"), std::string::npos);
+    EXPECT_EQ(jobs.size(), 2U) << "the points and the halves of the references, each once";
     EXPECT_EQ(again.cycles.version, "9.9.9");
     EXPECT_FALSE(again.curves[0].points[0].measured.empty()) << "an earlier run's time is told as such";
     EXPECT_TRUE(again.curves[1].points[0].measured.empty()) << "Bounce is measured anew";
@@ -228,7 +234,7 @@ TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
     EXPECT_THROW((void)evaluate(options_), Error);
 }
 
-// Stopped behind three of Cycles' eight renders, then started again.
+// Stopped behind three of four renders, first of Cycles' points and then of the references' halves.
 TEST_F(EvaluateTest, GoesOnWhereItStopped) {
     options_.point_folder = folder_ / "report/points";
     options_.resume = true;
@@ -241,18 +247,25 @@ TEST_F(EvaluateTest, GoesOnWhereItStopped) {
     EXPECT_EQ(calls("pass_calls"), 3) << "their passes are timed at the end";
     EXPECT_DOUBLE_EQ(result.curves[1].points[0].seconds, 0.020);
     EXPECT_EQ(result.curves[1].points[0].rss_peak_bytes, 8U);
-    std::ifstream in(folder_ / "blender_calls");
-    std::string first;
-    std::string second;
-    std::getline(in, first);
-    std::getline(in, second);
-    EXPECT_NE(first.find("cycles_1_1_3.exr"), std::string::npos);
-    for (const char* finished : {"cycles_1_1_3.exr", "cycles_1_4_3.exr", "cycles_1_16_1.exr"}) {
-        EXPECT_EQ(second.find(finished), std::string::npos) << finished;
+    std::vector<std::string> jobs = blender_jobs();
+    ASSERT_EQ(jobs.size(), 3U) << "the points twice, then the references";
+    EXPECT_NE(jobs[0].find("cycles_1_1.exr"), std::string::npos);
+    for (const char* finished : {"cycles_1_1.exr", "cycles_1_4.exr", "cycles_24_1.exr"}) {
+        EXPECT_EQ(jobs[1].find(finished), std::string::npos) << finished;
     }
-    for (const char* missing : {"cycles_1_16_2.exr", "cycles_24_1_3.exr", "cycles_24_16_2.exr"}) {
-        EXPECT_NE(second.find(missing), std::string::npos) << missing;
-    }
+    EXPECT_NE(jobs[1].find("cycles_24_4.exr"), std::string::npos);
+
+    options_.reference.spp = 64;
+    std::ofstream(folder_ / "cycles_fail_after") << 3;
+    EXPECT_THROW((void)evaluate(options_), Error);
+    std::filesystem::remove(folder_ / "cycles_fail_after");
+    EXPECT_EQ(evaluate(options_).references[1].spp, 64);
+    jobs = blender_jobs();
+    ASSERT_EQ(jobs.size(), 5U);
+    EXPECT_NE(jobs[3].find("24_1.exr"), std::string::npos);
+    EXPECT_EQ(jobs[4].find("\"frame\": 1,"), std::string::npos) << "the first frame's reference is whole";
+    EXPECT_EQ(jobs[4].find("24_1.exr"), std::string::npos) << "half of the second's is kept";
+    EXPECT_NE(jobs[4].find("24_2.exr"), std::string::npos);
 
     // Another program is another measurement.
     std::ofstream(options_.bounce, std::ios::app) << "# changed\n";

@@ -35,15 +35,16 @@ TEST(GivenReference, TellsWhatItsHeaderSays) {
     reference.image = Image(4, 2);
     reference.noise_floor = 1.25e-5;
     reference.seconds = 12.5;
+    reference.spp = 512;
     write_image(folder / "ref.0024.exr", reference.image,
-                reference_attributes(reference, "room.blend", "hash", 2, 512));
+                reference_attributes(reference, "room.blend", "hash", 2));
     const std::string name = (folder / "ref.####.exr").string();
     const Reference read = load_given_reference(name, 24, 4, 2, 2, "hash");
     EXPECT_EQ(read.frame, 24);
     EXPECT_EQ(read.image.rgb, reference.image.rgb);
     EXPECT_EQ(read.noise_floor, 1.25e-5);
     EXPECT_EQ(read.seconds, 12.5);
-    EXPECT_EQ(given_reference_spp(name, 24), 512);
+    EXPECT_EQ(read.spp, 512);
 
     EXPECT_THAT(refusal(name, 24, 8, 2, 2), HasSubstr("is 4x2, the frames are 8x2"));
     EXPECT_THAT(refusal(name, 24, 4, 2, 1), HasSubstr("has 2 bounces"));
@@ -57,7 +58,7 @@ TEST(GivenReference, OfAnotherSceneIsRefused) {
     Reference reference;
     reference.image = Image(4, 2);
     write_image(folder / "ref.exr", reference.image,
-                reference_attributes(reference, "room.blend", "other", 2, 512));
+                reference_attributes(reference, "room.blend", "other", 2));
     EXPECT_THAT(refusal((folder / "ref.exr").string(), 1, 4, 2, 2),
                 HasSubstr("another scene or of another state of it: room.blend"));
 }
@@ -68,7 +69,7 @@ TEST(GivenReference, OfAnotherProgramHasNoHeader) {
     const Reference read = load_given_reference((folder / "a.exr").string(), 7, 4, 2, 1, "hash");
     EXPECT_EQ(read.frame, 7);
     EXPECT_TRUE(std::isnan(read.noise_floor));
-    EXPECT_EQ(given_reference_spp((folder / "a.exr").string(), 7), 0);
+    EXPECT_EQ(read.spp, 0);
 }
 
 TEST(GivenReference, ADamagedOneIsRefused) {

@@ -35,7 +35,6 @@ Evaluation example() {
     evaluation.date = "2024-01-02T03:04:05Z";
     evaluation.width = 8;
     evaluation.height = 4;
-    evaluation.reference_spp = 1024;
     evaluation.frames = {1};
     evaluation.machine = {"A processor", 2, "A system"};
     evaluation.gl_renderer = "A driver";

@@ -165,12 +165,5 @@ TEST(MergeRounds, MedianAndSpreadAreOfAllRounds) {
     EXPECT_NE(testing::internal::GetCapturedStderr().find("VPLs, 64: frame 7"), std::string::npos);
 }
 
-TEST(RoughTime, IsForPeople) {
-    EXPECT_EQ(rough_time(0.2), "0 s");
-    EXPECT_EQ(rough_time(89), "89 s");
-    EXPECT_EQ(rough_time(200), "3 min");
-    EXPECT_EQ(rough_time(4800), "1 h 20 min");
-}
-
 }  // namespace
 }  // namespace bounce
