@@ -83,12 +83,16 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
         found = stats.report;
     }
     if (!arguments.stats.empty() && arguments.pass_times) {
-        // Passes are timed in a rendering of their own, so that waiting for each does not slow the frame's
+        // Passes are timed in renderings of their own, so that waiting for each does not slow the frame's
         // time.
         Settings counting = settings;
         counting.count_gathered_pixels = true;
         counting.measure_removed = arguments.removed;
-        stats.report = once(device.software ? gl::TimingMode::finish : gl::TimingMode::query, counting).first;
+        const auto mode = device.software ? gl::TimingMode::finish : gl::TimingMode::query;
+        for (int i = 0; i < arguments.repeat; ++i) {
+            stats.report = once(mode, counting).first;
+            stats.all_passes.push_back(stats.report.passes);
+        }
     }
     if (first) {
         stats.report.notes = found.notes;

@@ -16,6 +16,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0.0;
+    }
+    std::sort(values.begin(), values.end());
+    const size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
 ordered_json left_out_json(const std::vector<LeftOut>& left_out) {
     ordered_json out = ordered_json::array();
     for (const LeftOut& item : left_out) {
@@ -30,8 +39,20 @@ ordered_json frame_json(const FrameStats& frame, int pixels) {
                         {"wall_ms", frame.wall_ms()},
                         {"wall_ms_all", frame.all_wall_ms}};
     out["passes"] = ordered_json::array();
-    for (const gl::PassTime& pass : frame.report.passes) {
-        out["passes"].push_back({{"name", pass.name}, {"gpu_ms", pass.gpu_ms}, {"cpu_ms", pass.cpu_ms}});
+    const std::vector<gl::PassTime> none;
+    const std::vector<gl::PassTime>& passes = frame.all_passes.empty() ? none : frame.all_passes.front();
+    for (size_t i = 0; i < passes.size(); ++i) {
+        // A frame is planned the same way each time it is drawn, so its passes are the same ones.
+        std::vector<double> gpu_ms;
+        std::vector<double> cpu_ms;
+        for (const std::vector<gl::PassTime>& repetition : frame.all_passes) {
+            gpu_ms.push_back(repetition.at(i).gpu_ms);
+            cpu_ms.push_back(repetition.at(i).cpu_ms);
+        }
+        out["passes"].push_back({{"name", passes[i].name},
+                                 {"gpu_ms", median(gpu_ms)},
+                                 {"cpu_ms", median(cpu_ms)},
+                                 {"gpu_ms_all", gpu_ms}});
     }
     out["executed"] = frame.report.executed;
     if (frame.report.gathered_pixels >= 0) {
@@ -125,13 +146,7 @@ std::vector<Item> said_by_any(const std::vector<FrameStats>& frames, std::vector
 }  // namespace
 
 double FrameStats::wall_ms() const {
-    if (all_wall_ms.empty()) {
-        return 0.0;
-    }
-    std::vector<double> sorted = all_wall_ms;
-    std::sort(sorted.begin(), sorted.end());
-    const size_t middle = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+    return median(all_wall_ms);
 }
 
 void StatsFile::write(const std::filesystem::path& path) const {

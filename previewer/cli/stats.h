@@ -14,6 +14,8 @@ struct FrameStats {
     int frame = 0;
     double time_s = 0.0;
     std::vector<double> all_wall_ms;  // every repetition, glFinish to glFinish, without per-pass timing
+    // The passes of every repetition with per-pass timing, in the order in which they ran; empty without it.
+    std::vector<std::vector<gl::PassTime>> all_passes;
     FrameReport report;
     [[nodiscard]] double wall_ms() const;  // their median
 };

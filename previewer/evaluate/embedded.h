@@ -14,8 +14,10 @@ namespace bounce::embedded {
 [[nodiscard]] std::string_view f3d_export_py();
 [[nodiscard]] std::string_view report_html();
 [[nodiscard]] std::string_view report_js();
+[[nodiscard]] std::string_view report_budgets_js();
 [[nodiscard]] std::string_view report_chart_js();
 [[nodiscard]] std::string_view report_frame_js();
+[[nodiscard]] std::string_view report_frames_js();
 [[nodiscard]] std::string_view report_viewer_js();
 [[nodiscard]] std::string_view report_css();
 [[nodiscard]] std::string_view chart_notice_txt();

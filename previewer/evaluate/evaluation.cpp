@@ -32,6 +32,8 @@ constexpr int k_quick_spp = 4;
 constexpr int k_quick_repeat = 3;
 // Runs up to which each one's passes are timed: a process more a run.
 constexpr size_t k_most_pass_runs = 16;
+// Each is a rendering with and one without the passes timed.
+constexpr int k_most_pass_repeats = 3;
 
 FrameError measure(int frame, double seconds, const Image& image, const Image& reference) {
     const Metrics metrics = compare(image, reference, HdrFlip::leave_out);
@@ -286,6 +288,7 @@ class Evaluator {
             if (wanted) {
                 result_.passes.push_back(measure_passes(options_.bounce, gltf_, run, options_.frames.front(),
                                                         options_.width, options_.height,
+                                                        std::min(options_.repeat, k_most_pass_repeats),
                                                         scratch_ / fmt::format("passes{}", i)));
             }
         }

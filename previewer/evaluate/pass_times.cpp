@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/pass_times.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -19,7 +20,13 @@ PassTimes pass_times_of(const nlohmann::json& stats) {
     const auto& frame = stats.at("frames").at(0);
     result.frame = frame.at("frame");
     for (const auto& pass : frame.at("passes")) {
-        result.passes.push_back({pass.at("name"), pass.at("gpu_ms").get<double>() / 1000.0});
+        const auto all = pass.at("gpu_ms_all").get<std::vector<double>>();
+        const auto [least, most] = std::minmax_element(all.begin(), all.end());
+        if (all.empty()) {
+            throw Error(ExitCode::failed, "a pass was not timed");
+        }
+        result.passes.push_back({pass.at("name"), pass.at("gpu_ms").get<double>() / 1000.0, *least / 1000.0,
+                                 *most / 1000.0});
     }
     for (const auto& item : stats.at("left_out")) {
         result.left_out.push_back({item.at("pass"), item.at("reason")});
@@ -29,7 +36,7 @@ PassTimes pass_times_of(const nlohmann::json& stats) {
 }
 
 PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const PreviewRun& run, int frame,
-                         int width, int height, const fs::path& folder) {
+                         int width, int height, int repeat, const fs::path& folder) {
     fs::create_directories(folder);
     const fs::path stats = folder / "passes.json";
     std::vector<std::string> command{bounce.string(),
@@ -41,6 +48,8 @@ PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const Pr
                                      std::to_string(frame),
                                      "--size",
                                      fmt::format("{}x{}", width, height),
+                                     "--repeat",
+                                     std::to_string(repeat),
                                      "--stats",
                                      stats.string()};
     command.insert(command.end(), run.render_arguments.begin(), run.render_arguments.end());

@@ -15,7 +15,9 @@ namespace bounce {
 
 struct PassSeconds {
     std::string name;
-    double seconds = 0.0;
+    double seconds = 0.0;  // median of the repeated renderings
+    double seconds_least = 0.0;
+    double seconds_most = 0.0;
 };
 
 // A pass or a step that a frame does without, and why.
@@ -34,11 +36,12 @@ struct PassTimes {
     std::vector<std::string> approximations;
 };
 
-// Renders one frame once more with the passes timed one by one, in a process of its own: waiting for each
-// pass would slow the frame that counts. Throws Error (failed).
+// Renders one frame `repeat` times more with the passes timed one by one, in a process of its own: waiting for
+// each pass would slow the frame that counts. Throws Error (failed).
 [[nodiscard]] PassTimes measure_passes(const std::filesystem::path& bounce,
                                        const std::filesystem::path& scene, const PreviewRun& run, int frame,
-                                       int width, int height, const std::filesystem::path& folder);
+                                       int width, int height, int repeat,
+                                       const std::filesystem::path& folder);
 
 // From what `bounce render --stats` wrote. Throws nlohmann::json::exception.
 [[nodiscard]] PassTimes pass_times_of(const nlohmann::json& stats);

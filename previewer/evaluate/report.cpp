@@ -103,6 +103,8 @@ ordered_json point_json(const CurvePoint& point) {
     for (const FrameError& frame : point.frames) {
         frames.push_back({{"frame", frame.frame},
                           {"seconds", number(frame.seconds)},
+                          {"seconds_least", number(frame.seconds_least)},
+                          {"seconds_most", number(frame.seconds_most)},
                           {"relmse", number(frame.relmse)},
                           {"relmse_exposed", number(frame.relmse_exposed)},
                           {"flip_ldr", number(frame.flip_ldr)},
@@ -210,6 +212,7 @@ ordered_json results_json(const Evaluation& evaluation) {
             {"curves", curves},
             {"speedup_at_equal_error", speedups},
             {"own_front", front_json(evaluation.front)},
+            {"budgets", budgets_json(evaluation)},
             {"width", evaluation.width},
             {"height", evaluation.height},
             {"frames", evaluation.frames},

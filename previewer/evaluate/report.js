@@ -41,6 +41,12 @@ const report = (() => {
   };
   const percent = (value) =>
     value === null ? "not a number" : `${value >= 0 ? "+" : "−"}${Math.abs(value * 100).toFixed(2)} %`;
+  // "−3 … +12 %": from the fastest to the slowest of the repeated renders, as parts of the median.
+  const spread = (item) => {
+    if (item.seconds_least === null || item.seconds_most === null || !(item.seconds > 0)) return "–";
+    const part = (seconds) => { const value = Math.round(100 * (seconds / item.seconds - 1)); return value < 0 ? `−${-value}` : `+${value}`; };
+    return `${part(item.seconds_least)} … ${part(item.seconds_most)} %`;
+  };
   const bytes = (value) => (value > 0 ? `${digits(value / 2 ** 20, 3)} MiB` : "–");
   const element = (name, text, parent) => {
     const made = document.createElement(name);
@@ -101,17 +107,21 @@ const report = (() => {
   const spp = results.reference.spp > 0 ? `, ${results.reference.spp} spp` : "";
   const referenceText = given ? `${results.reference.engine}${spp}`
     : `Cycles ${results.reference.version}${spp}, ${time(results.reference.seconds)} a frame`;
+  // How far the smallest error of a frame is above the noise of its reference: of the worst frame.
+  const headrooms = results.reference.frames.filter((frame) => frame.noise_floor_relmse > 0 && frame.smallest_relmse !== null)
+    .map((frame) => frame.smallest_relmse / frame.noise_floor_relmse);
+  const headroom = headrooms.length ? Math.min(...headrooms) : null;
   card(results.reference.noise_floor_relmse === null ? "not known" : scientific(results.reference.noise_floor_relmse),
     `relMSE of the reference's own noise: ${referenceText}` +
-    (best && results.reference.noise_floor_relmse !== null && best.relmse < 3 * results.reference.noise_floor_relmse
-      ? "; the smallest errors here are near it, and a longer reference would tell them apart" : ""));
+    (headroom === null ? "" : `; ${headroom < 10 ? "only " : ""}${digits(headroom, 2)} times below the smallest error measured` +
+      (headroom < 10 ? ", and a longer reference would be needed to tell small ones apart" : "")));
 
   // ---- table of all points ----
   const fillPoints = () => {
     const table = byId("points");
     table.replaceChildren();
     const head = table.createTHead().insertRow();
-    for (const text of ["curve", "point", "time a frame", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio",
+    for (const text of ["curve", "point", "time a frame", "spread", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio",
       "process", "OpenGL"]) {
       element("th", text, head);
     }
@@ -124,11 +134,11 @@ const report = (() => {
         const swatch = element("span", "", name);
         swatch.className = "swatch";
         swatch.style.background = colorOf(curve);
-        name.append(curve.name);
+        name.append(`${curve.name}${point.own_front ? " ◆" : ""}`);
         const speedup = speedupOf(curve.name, point.label);
         const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
           : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
-        for (const text of [point.label, `${time(point.seconds)}${point.measured ? " †" : ""}`, scientific(point.relmse),
+        for (const text of [point.label, `${time(point.seconds)}${point.measured ? " †" : ""}`, spread(point), scientific(point.relmse),
           digits(point.flip_ldr, 3), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
           bytes(point.rss_peak_bytes), bytes(point.gl_peak_bytes)]) {
           row.insertCell().textContent = text;
@@ -180,7 +190,8 @@ const report = (() => {
   fact("Error", "relMSE: mean over pixels and channels of (a − b)² / (b² + 0.01) on scene-linear values. FLIP " +
     "(Andersson et al., 2020) after the Standard view transform. Bias: mean(a) / mean(b) − 1.");
   if (results.reference.noise_floor_relmse !== null) fact("Noise floor", `An exact picture would score ${scientific(results.reference.noise_floor_relmse)} against this ` +
-    "reference: half the difference of its two halves, squared and weighted as in relMSE.");
+    "reference: half the difference of two halves with different seeds, squared and weighted as in relMSE" +
+    (headroom === null ? "." : `. The smallest error measured here is ${digits(headroom, 2)} times as large.`));
   fact("Time", "Per frame in steady state: Cycles renders a frame once before the render that is timed (the median of " +
     "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
     (setup > 0 ? ` Cycles' set-up of each frame (transfer and BVH), which is in its times: ${time(setup)}.` : ""));
@@ -203,6 +214,6 @@ const report = (() => {
     }
   });
 
-  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element,
+  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element, spread,
     tabs, onSchemeChange };
 })();

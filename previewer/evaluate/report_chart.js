@@ -57,6 +57,13 @@
     if (chart) chart.destroy();
     const datasets = results.curves.map(datasetOf).filter((dataset) => dataset.data.length > 0);
     const all = datasets.flatMap((dataset) => dataset.data);
+    // Of a sweep's many curves what counts: the best that Bounce does at each time. A band behind them.
+    const front = metric === metrics[0] ? all.filter((item) => item.point.own_front).sort((a, b) => a.x - b.x) : [];
+    if (front.length > 1) {
+      datasets.push({ label: "Bounce's own front", data: front.map(({ x, y }) => ({ x, y })), showLine: true,
+        borderColor: variable("--band"), backgroundColor: variable("--band"), borderWidth: 12, borderCapStyle: "round",
+        borderJoinStyle: "round", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 1 });
+    }
     if (all.length === 0) return;
     const [minX, maxX] = span(all.map((item) => item.x));
     const [minY, maxY] = span(all.map((item) => item.y).concat(metric.floor > 0 ? [metric.floor] : []));

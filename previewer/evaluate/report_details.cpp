@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/report_details.h"
 
+#include <algorithm>
+
+#include "evaluate/tuning.h"
+
 namespace bounce {
 namespace {
 
@@ -40,7 +44,9 @@ ordered_json passes_json(const Evaluation& evaluation) {
     for (const PassTimes& item : evaluation.passes) {
         ordered_json passes = ordered_json::array();
         for (const PassSeconds& pass : item.passes) {
-            passes.push_back({{"name", pass.name}, {"seconds", pass.seconds}});
+            passes.push_back({{"name", pass.name}, {"seconds", pass.seconds},
+                              {"seconds_least", pass.seconds_least},
+                              {"seconds_most", pass.seconds_most}});
         }
         ordered_json left_out = ordered_json::array();
         for (const LeftOutPass& left : item.left_out) {
@@ -52,6 +58,30 @@ ordered_json passes_json(const Evaluation& evaluation) {
                        {"passes", passes},
                        {"left_out", left_out},
                        {"approximations", item.approximations}});
+    }
+    return all;
+}
+
+ordered_json budgets_json(const Evaluation& evaluation) {
+    const std::vector<TunedSettings> winners =
+        budget_winners(evaluation.curves, {k_budgets_ms.begin(), k_budgets_ms.end()});
+    ordered_json all = ordered_json::array();
+    for (const double budget_ms : k_budgets_ms) {
+        const auto winner = std::find_if(winners.begin(), winners.end(), [&](const TunedSettings& item) {
+            return item.budget_ms == budget_ms;
+        });
+        if (winner == winners.end()) {
+            all.push_back({{"budget_ms", budget_ms}});
+            continue;
+        }
+        all.push_back({{"budget_ms", budget_ms},
+                       {"curve", winner->curve},
+                       {"label", winner->label},
+                       {"options", winner->options},
+                       {"seconds", winner->seconds},
+                       {"relmse", winner->relmse},
+                       {"flip_ldr", winner->flip_ldr},
+                       {"bias", winner->bias}});
     }
     return all;
 }

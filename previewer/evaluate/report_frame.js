@@ -24,12 +24,13 @@
   const groups = kinds.length > named.length ? [...named, rest] : named;
   const groupOf = (name) => (named.includes(kindOf(name)) ? kindOf(name) : rest);
   const colorOf = (group) => palettes[scheme()][group === rest ? palettes.light.length - 1 : named.indexOf(group)];
-  const sum = (run, group) =>
-    run.passes.filter((pass) => groupOf(pass.name) === group).reduce((total, pass) => total + pass.seconds, 0);
+  const sum = (run, group, key) =>
+    run.passes.filter((pass) => groupOf(pass.name) === group).reduce((total, pass) => total + pass[key], 0);
+  const spread = (least, most) => `${time(least)} to ${time(most)}`;
   const nameOf = (run) => (run.curve === run.label ? run.curve : `${run.curve}, ${run.label}`);
 
-  byId("passes-note").textContent = `Frame ${runs[0].frame}, rendered once more with each pass timed on its own: waiting ` +
-    "for each makes the sum longer than the frame. Hover over a bar for its figures.";
+  byId("passes-note").textContent = `Frame ${runs[0].frame}, rendered again with each pass timed on its own: waiting ` +
+    "for each makes the sum longer than the frame. Medians; hover over a bar for its figures and their spread.";
   byId("passes-box").style.height = `${90 + 30 * runs.length}px`;
   let chart = null;
   const draw = () => {
@@ -37,7 +38,7 @@
     chart = new Chart(byId("passes"), {
       type: "bar",
       data: { labels: runs.map(nameOf),
-        datasets: groups.map((group) => ({ label: group, data: runs.map((run) => 1000 * sum(run, group)),
+        datasets: groups.map((group) => ({ label: group, data: runs.map((run) => 1000 * sum(run, group, "seconds")),
           backgroundColor: colorOf(group), borderColor: variable("--paper"), borderWidth: { right: 1 }, barPercentage: 0.72,
           categoryPercentage: 1 })) },
       options: {
@@ -55,7 +56,12 @@
         plugins: {
           legend: { position: "bottom", labels: { boxWidth: 11, boxHeight: 11, padding: 14, color: variable("--ink") } },
           tooltip: { padding: 10, callbacks: {
-            label: (item) => `${item.dataset.label}: ${digits(item.raw, 3)} ms`,
+            label: (item) => {
+              const run = runs[item.dataIndex];
+              const group = item.dataset.label;
+              return `${group}: ${digits(item.raw, 3)} ms (${spread(sum(run, group, "seconds_least"),
+                sum(run, group, "seconds_most"))})`;
+            },
             footer: (items) => {
               const run = runs[items[0].dataIndex];
               return `all passes: ${time(run.passes.reduce((total, pass) => total + pass.seconds, 0))}`;
@@ -82,7 +88,9 @@
       const bar = element("i", "", cell);
       bar.style.width = `${100 * pass.seconds / longest}%`;
       bar.style.background = colorOf(groupOf(pass.name));
-      row.insertCell().textContent = time(pass.seconds);
+      const figure = row.insertCell();
+      figure.textContent = time(pass.seconds);
+      figure.title = spread(pass.seconds_least, pass.seconds_most);
     }
     const reasons = byId("plan-left-out");
     reasons.replaceChildren();

@@ -22,7 +22,7 @@
       const reference = results.reference.frames[state.frame];
       return { image: frame.reference, tag: "Reference",
         caption: results.reference.engine === "Cycles (CPU)"
-          ? `Reference: Cycles, ${results.reference.spp} spp, ${time(reference.seconds)}` : "Reference" };
+          ? `Reference: Cycles, ${reference.spp} spp, ${time(reference.seconds)}` : "Reference" };
     }
     const preview = frame.previews.find((item) => nameOf(item) === name);
     const point = results.curves.find((curve) => curve.name === preview.curve)

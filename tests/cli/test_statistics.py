@@ -30,7 +30,8 @@ def test_the_contract(statistics, scene):
         assert frame["wall_ms"] > 0
         assert [entry["name"] for entry in frame["passes"]] == frame["executed"]
         for entry in frame["passes"]:
-            assert entry.keys() == {"name", "gpu_ms", "cpu_ms"}
+            assert entry.keys() == {"name", "gpu_ms", "cpu_ms", "gpu_ms_all"}
+            assert entry["gpu_ms_all"] == [entry["gpu_ms"]]
             assert entry["gpu_ms"] >= 0 and entry["cpu_ms"] >= 0
         assert "gbuffer" in frame["executed"] and "composite" in frame["executed"]
         assert 0 <= frame["gathered_share"] <= 1

@@ -278,6 +278,8 @@ TEST_F(EvaluateTest, LooksIntoTheFrames) {
     ASSERT_EQ(result.passes.size(), 3U);
     EXPECT_EQ(result.passes[0].passes[0].name, "gbuffer");
     EXPECT_DOUBLE_EQ(result.passes[0].passes[0].seconds, 0.005);
+    EXPECT_DOUBLE_EQ(result.passes[0].passes[0].seconds_least, 0.004);
+    EXPECT_DOUBLE_EQ(result.passes[0].passes[0].seconds_most, 0.009);
     EXPECT_EQ(result.passes[0].left_out[0].reason, "nothing moves");
     ASSERT_EQ(result.startups.size(), 2U);
     EXPECT_EQ(result.startups[0].engine, "Bounce");
