@@ -286,10 +286,9 @@ class Evaluator {
                 (needs_cycles() && options_.runs.size() <= k_most_pass_runs) ||
                 std::find(shown.begin(), shown.end(), std::pair{run.name, run.label}) != shown.end();
             if (wanted) {
-                result_.passes.push_back(measure_passes(options_.bounce, gltf_, run, options_.frames.front(),
-                                                        options_.width, options_.height,
-                                                        std::min(options_.repeat, k_most_pass_repeats),
-                                                        scratch_ / fmt::format("passes{}", i)));
+                result_.passes.push_back(measure_passes(
+                    options_.bounce, gltf_, run, options_.frames.front(), options_.width, options_.height,
+                    std::min(options_.repeat, k_most_pass_repeats), scratch_ / fmt::format("passes{}", i)));
             }
         }
     }

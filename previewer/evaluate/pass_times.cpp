@@ -25,8 +25,8 @@ PassTimes pass_times_of(const nlohmann::json& stats) {
         if (all.empty()) {
             throw Error(ExitCode::failed, "a pass was not timed");
         }
-        result.passes.push_back({pass.at("name"), pass.at("gpu_ms").get<double>() / 1000.0, *least / 1000.0,
-                                 *most / 1000.0});
+        result.passes.push_back(
+            {pass.at("name"), pass.at("gpu_ms").get<double>() / 1000.0, *least / 1000.0, *most / 1000.0});
     }
     for (const auto& item : stats.at("left_out")) {
         result.left_out.push_back({item.at("pass"), item.at("reason")});

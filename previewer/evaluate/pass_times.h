@@ -36,8 +36,8 @@ struct PassTimes {
     std::vector<std::string> approximations;
 };
 
-// Renders one frame `repeat` times more with the passes timed one by one, in a process of its own: waiting for
-// each pass would slow the frame that counts. Throws Error (failed).
+// Renders one frame `repeat` times more with the passes timed one by one, in a process of its own: waiting
+// for each pass would slow the frame that counts. Throws Error (failed).
 [[nodiscard]] PassTimes measure_passes(const std::filesystem::path& bounce,
                                        const std::filesystem::path& scene, const PreviewRun& run, int frame,
                                        int width, int height, int repeat,

@@ -28,14 +28,8 @@ ReferenceSet::ReferenceSet(Source source, fs::path folder, const RenderCache& re
 }
 
 ReferenceKey ReferenceSet::key_of(int frame) const {
-    return {source_.scene_hash,
-            frame,
-            source_.width,
-            source_.height,
-            source_.goal.spp,
-            source_.bounces,
-            source_.blender_version,
-            cycles_scripts_hash()};
+    return {source_.scene_hash, frame,           source_.width,           source_.height,
+            source_.goal.spp,   source_.bounces, source_.blender_version, cycles_scripts_hash()};
 }
 
 std::vector<Reference> ReferenceSet::all() const {
@@ -62,8 +56,8 @@ std::vector<ReferenceSet::Batch> ReferenceSet::missing_batches(const SmallestErr
             ++count;
         }
         if (have > reference.spp && reference.spp > 0) {
-            log::info("frame {}: the reference's noise floor is {:.2g} at {} samples; {} more follow, {}", frame,
-                      reference.noise_floor, reference.spp, have - reference.spp,
+            log::info("frame {}: the reference's noise floor is {:.2g} at {} samples; {} more follow, {}",
+                      frame, reference.noise_floor, reference.spp, have - reference.spp,
                       rough_time(reference.seconds / reference.spp * (have - reference.spp)));
         }
     }
@@ -131,9 +125,8 @@ void ReferenceSet::add(const Batch& batch, const CyclesRender& half1, const Cycl
                        const std::vector<fs::path>& scene_files) {
     Reference reference = make_reference(read_image(half1.output), read_image(half2.output), batch.spp);
     if (!std::isfinite(reference.noise_floor)) {
-        throw input_error(
-            fmt::format("Cycles' reference of frame {} of {} has values that are not numbers", batch.frame,
-                        source_.scene.string()));
+        throw input_error(fmt::format("Cycles' reference of frame {} of {} has values that are not numbers",
+                                      batch.frame, source_.scene.string()));
     }
     reference.frame = batch.frame;
     reference.seconds = half1.seconds + half2.seconds;
@@ -153,7 +146,8 @@ void ReferenceSet::warn_of_high_floors(const SmallestError& smallest_error) cons
         if (std::isfinite(smallest) && std::isfinite(reference.noise_floor) &&
             !floor_is_low(source_.goal, reference, smallest)) {
             log::warning(
-                "frame {}: the reference's noise floor, {:.2g}, is only {:.1f} times below the smallest relMSE "
+                "frame {}: the reference's noise floor, {:.2g}, is only {:.1f} times below the smallest "
+                "relMSE "
                 "measured against it, {:.2g}{}",
                 frame, reference.noise_floor, smallest / reference.noise_floor, smallest,
                 source_.given.empty() ? "; more samples lower it (--reference-spp, --reference-limit)" : "");

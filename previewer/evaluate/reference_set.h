@@ -34,12 +34,12 @@ class ReferenceSet {
     };
     // The key of a finished picture of Cycles in the render cache.
     using CyclesKey = std::function<std::string(const CyclesRender&)>;
-    // The least relMSE that anything has against an image taken as the frame's reference; infinite where there
-    // is nothing to measure.
+    // The least relMSE that anything has against an image taken as the frame's reference; infinite where
+    // there is nothing to measure.
     using SmallestError = std::function<double(int frame, const Image& reference)>;
 
-    // Loads what is given or cached. folder: of the cached references. Throws input_error where a given image is
-    // not of this scene, frame, size or number of bounces.
+    // Loads what is given or cached. folder: of the cached references. Throws input_error where a given image
+    // is not of this scene, frame, size or number of bounces.
     ReferenceSet(Source source, std::filesystem::path folder, const RenderCache& renders, CyclesKey key);
 
     // Renders with Cycles what the goal asks for, batch by batch. Each batch is kept as soon as it is whole.

@@ -67,6 +67,12 @@ const report = (() => {
     });
     press(pressed);
   };
+  // Of logarithmic axes: labels at 1, 2 and 5, and limits a little beyond the values.
+  const tick = (value) => {
+    const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
+    return [1, 2, 5].some((known) => Math.abs(mantissa - known) < 1e-6) ? digits(value, 1) : "";
+  };
+  const span = (values) => [Math.min(...values) / 1.6, Math.max(...values) * 1.6];
   const onSchemeChange = (act) => dark.addEventListener("change", act);
 
   // ---- head ----
@@ -214,6 +220,6 @@ const report = (() => {
     }
   });
 
-  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element, spread,
+  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element, spread, tick, span,
     tabs, onSchemeChange };
 })();

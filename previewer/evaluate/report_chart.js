@@ -2,19 +2,13 @@
 // The chart of error against time.
 "use strict";
 (() => {
-  const { results, byId, colorOf, shapeOf, variable, digits, scientific, time, percent, tabs, onSchemeChange } = report;
+  const { results, byId, colorOf, shapeOf, variable, digits, scientific, time, percent, tabs, tick, span, onSchemeChange } = report;
   const metrics = [
     { key: "relmse", name: "relMSE", floor: results.reference.noise_floor_relmse },
     { key: "flip_ldr", name: "FLIP", floor: 0 },
   ];
   let metric = metrics[0];
   let chart = null;
-
-  const tick = (value) => {
-    const mantissa = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-    return [1, 2, 5].some((known) => Math.abs(mantissa - known) < 1e-6) ? digits(value, 1) : "";
-  };
-  const span = (values) => [Math.min(...values) / 1.6, Math.max(...values) * 1.6];
 
   const datasetOf = (curve) => ({
     label: curve.name,

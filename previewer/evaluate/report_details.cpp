@@ -44,7 +44,8 @@ ordered_json passes_json(const Evaluation& evaluation) {
     for (const PassTimes& item : evaluation.passes) {
         ordered_json passes = ordered_json::array();
         for (const PassSeconds& pass : item.passes) {
-            passes.push_back({{"name", pass.name}, {"seconds", pass.seconds},
+            passes.push_back({{"name", pass.name},
+                              {"seconds", pass.seconds},
                               {"seconds_least", pass.seconds_least},
                               {"seconds_most", pass.seconds_most}});
         }

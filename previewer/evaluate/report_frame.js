@@ -2,7 +2,7 @@
 // Where a frame's time goes, pass by pass, and what it leaves out.
 "use strict";
 (() => {
-  const { results, byId, best, variable, scheme, digits, time, element, onSchemeChange } = report;
+  const { results, byId, best, variable, scheme, time, element, tabs, onSchemeChange } = report;
   const runs = results.passes;
   if (runs.length === 0) {
     byId("passes-section").hidden = true;
@@ -32,13 +32,17 @@
   byId("passes-note").textContent = `Frame ${runs[0].frame}, rendered again with each pass timed on its own: waiting ` +
     "for each makes the sum longer than the frame. Medians; hover over a bar for its figures and their spread.";
   byId("passes-box").style.height = `${90 + 30 * runs.length}px`;
+  // Beside a point that takes a hundred times as long the others' bars are too short to read: shares show them.
+  const total = (run) => run.passes.reduce((sum, pass) => sum + pass.seconds, 0);
+  let shares = false;
+  const length = (run, group) => (shares ? 100 / total(run) : 1000) * sum(run, group, "seconds");
   let chart = null;
   const draw = () => {
     if (chart) chart.destroy();
     chart = new Chart(byId("passes"), {
       type: "bar",
       data: { labels: runs.map(nameOf),
-        datasets: groups.map((group) => ({ label: group, data: runs.map((run) => 1000 * sum(run, group, "seconds")),
+        datasets: groups.map((group) => ({ label: group, data: runs.map((run) => length(run, group)),
           backgroundColor: colorOf(group), borderColor: variable("--paper"), borderWidth: { right: 1 }, barPercentage: 0.72,
           categoryPercentage: 1 })) },
       options: {
@@ -47,8 +51,8 @@
         maintainAspectRatio: false,
         interaction: { mode: "nearest", intersect: true },
         scales: {
-          x: { stacked: true, grid: { color: variable("--grid"), borderColor: variable("--line") },
-            title: { display: true, text: "milliseconds", color: variable("--soft"), font: { size: 13 } },
+          x: { stacked: true, max: shares ? 100 : undefined, grid: { color: variable("--grid"), borderColor: variable("--line") },
+            title: { display: true, text: shares ? "per cent of the passes' time" : "milliseconds", color: variable("--soft"), font: { size: 13 } },
             ticks: { color: variable("--soft") } },
           y: { stacked: true, grid: { display: false, borderColor: variable("--line") },
             ticks: { color: variable("--ink"), font: { size: 13 }, autoSkip: false } },
@@ -59,12 +63,12 @@
             label: (item) => {
               const run = runs[item.dataIndex];
               const group = item.dataset.label;
-              return `${group}: ${digits(item.raw, 3)} ms (${spread(sum(run, group, "seconds_least"),
+              return `${group}: ${time(sum(run, group, "seconds"))} (${spread(sum(run, group, "seconds_least"),
                 sum(run, group, "seconds_most"))})`;
             },
             footer: (items) => {
               const run = runs[items[0].dataIndex];
-              return `all passes: ${time(run.passes.reduce((total, pass) => total + pass.seconds, 0))}`;
+              return `all passes: ${time(total(run))}`;
             } } },
         },
       },
@@ -105,6 +109,7 @@
   };
   select.addEventListener("change", showPlan);
   const update = () => { draw(); showPlan(); };
-  update();
+  tabs(byId("passes-tabs"), ["Time", "Share"], 0, (index) => { shares = index === 1; draw(); });
+  showPlan();
   onSchemeChange(update);
 })();

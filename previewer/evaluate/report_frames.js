@@ -2,7 +2,8 @@
 // Errors and times of each frame, where there is more than one.
 "use strict";
 (() => {
-  const { results, byId, best, colorOf, variable, digits, scientific, time, percent, element, spread, onSchemeChange } = report;
+  const { results, byId, best, colorOf, variable, digits, scientific, time, percent, element, spread, tick, span,
+    onSchemeChange } = report;
   if (results.frames.length < 2) {
     byId("frame-by-frame").hidden = true;
     return;
@@ -20,15 +21,17 @@
       borderDash: dash, pointRadius: results.frames.length > 60 ? 0 : 4, pointHitRadius: 8, tension: 0 });
     const ticks = { color: variable("--soft") };
     const grid = { color: variable("--grid"), borderColor: variable("--line") };
+    const noise = results.reference.frames.map((frame) => frame.noise_floor_relmse);
+    const [min, max] = span(point.frames.map((frame) => frame.relmse).concat(noise).filter((value) => value > 0));
     const title = (text) => ({ display: true, text, color: variable("--soft"), font: { size: 13 } });
     chart = new Chart(byId("frames-chart"), {
       type: "line",
       data: { labels: point.frames.map((frame) => frame.frame),
         datasets: [line("relMSE", point.frames.map((frame) => frame.relmse), colorOf(curve), []),
-          line("noise of the reference", results.reference.frames.map((frame) => frame.noise_floor_relmse), "#8d97a3", [8, 5])] },
+          line("noise of the reference", noise, "#8d97a3", [8, 5])] },
       options: { animation: false, maintainAspectRatio: false, interaction: { mode: "index", intersect: false },
-        scales: { x: { title: title("frame"), ticks, grid }, y: { type: "logarithmic", title: title("relMSE"), grid,
-          ticks: { ...ticks, callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? scientific(value) : "") } } },
+        scales: { x: { title: title("frame"), ticks, grid }, y: { type: "logarithmic", min, max, title: title("relMSE"), grid,
+          ticks: { ...ticks, callback: tick, autoSkip: false } } },
         plugins: { legend: { position: "bottom", labels: { color: variable("--ink"), boxWidth: 14, boxHeight: 2 } },
           tooltip: { callbacks: { title: (items) => `frame ${items[0].label}`,
             label: (item) => `${item.dataset.label}: ${scientific(item.raw)}` } } } },

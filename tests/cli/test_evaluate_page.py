@@ -153,6 +153,22 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         assert window.evaluate("document.querySelectorAll('#plan-ran tr').length") > 0
         assert window.evaluate("document.querySelectorAll('#plan-left-out dd').length") > 0
         assert window.evaluate("document.querySelectorAll('#startup tbody tr').length") == 4
+        bars = "Chart.getChart('passes').data.datasets.map(d => d.data[0])"
+        assert sum(window.evaluate(bars)) == pytest.approx(
+            1000 * sum(item["seconds"] for item in results["passes"][0]["passes"]), rel=1e-6)
+        window.evaluate("document.querySelectorAll('#passes-tabs button')[1].click()")
+        assert sum(window.evaluate(bars)) == pytest.approx(100, rel=1e-6)
+
+        # Each frame of a chosen point, and what wins within a time.
+        window.evaluate("(() => { const s = document.getElementById('frames-point'); s.selectedIndex = 1;"
+                        "s.dispatchEvent(new Event('change')); })()")
+        assert window.evaluate("Chart.getChart('frames-chart').data.datasets[0].data") == [
+            frame["relmse"] for frame in points[1]["frames"]]
+        assert window.evaluate("[...document.querySelectorAll('#frames-table tbody td:first-child')]"
+                               ".map(cell => Number(cell.textContent))") == results["frames"]
+        rows = window.evaluate("[...document.querySelectorAll('#budgets tbody tr')].map(row => row.textContent)")
+        assert [("no point" in row) for row in rows] == ["options" not in item for item in results["budgets"]]
+        assert "--technique direct" in rows[-1]
         assert "evaluate" in window.evaluate("document.getElementById('command').textContent")
 
         # Dark where the system is, and no wider than the window at any size.
