@@ -64,6 +64,9 @@ const std::vector<Experiment>& experiments() {
     static const std::vector<Experiment> all = {
         {"rates", "Splat and gather rates",
          "points splatted and VPLs evaluated a second, and what a frame spends on neither", measure_rates},
+        {"rsm-table1", "Screen-space interpolation of reflective shadow maps",
+         "time of a frame against samples and first pass, and light each pattern keeps (Table 1 of 2005)",
+         measure_rsm_interpolation},
         {"ism-fig4", "Error of imperfect shadow maps",
          "error of ISMs against true shadow maps, over points and map size (the paper's Figure 4)",
          measure_ism_error},

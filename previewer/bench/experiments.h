@@ -54,6 +54,7 @@ struct BenchInputs {
 
 // Fills tables, plots, checks and the paper's words; the caller says on what machine it was.
 using RunExperiment = void (*)(const BenchInputs& inputs, BenchReport& report);
+void measure_rsm_interpolation(const BenchInputs& inputs, BenchReport& report);
 void measure_rates(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_error(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report);

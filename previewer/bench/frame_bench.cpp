@@ -93,12 +93,14 @@ MeasuredFrame FrameBench::measure(const Settings& settings, int repeat, Measure 
     }
     MeasuredFrame out;
     out.report = draw(settings, gl::TimingMode::off);
-    if (out.report.vpls == 0) {
+    const int lights = settings.technique == Technique::rsm ? out.report.rsm_samples : out.report.vpls;
+    if (lights == 0) {
         throw input_error(
             fmt::format("{} has no bounced light in this frame: no light shines on a surface that reflects",
                         scene_.name));
     }
-    if (settings.visibility == Visibility::ism && out.report.points_a_map == 0) {
+    if (settings.technique == Technique::ism && settings.visibility == Visibility::ism &&
+        out.report.points_a_map == 0) {
         throw input_error(fmt::format(
             "{} has nothing that hides anything: its virtual point lights need no shadow maps", scene_.name));
     }
@@ -123,8 +125,11 @@ MeasuredFrame FrameBench::measure(const Settings& settings, int repeat, Measure 
     return out;
 }
 
-Image FrameBench::picture(const Settings& settings) {
-    (void)draw(settings, gl::TimingMode::off);
+Image FrameBench::picture(const Settings& settings, FrameReport* report) {
+    FrameReport drawn = draw(settings, gl::TimingMode::off);
+    if (report != nullptr) {
+        *report = std::move(drawn);
+    }
     return renderer_.read_color();
 }
 

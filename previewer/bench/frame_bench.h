@@ -81,8 +81,8 @@ class FrameBench {
     // two frames.
     [[nodiscard]] MeasuredFrame measure(const Settings& settings, int repeat,
                                         Measure what = Measure::frame_and_passes);
-    // The picture of these settings.
-    [[nodiscard]] Image picture(const Settings& settings);
+    // The picture of these settings, and what the frame reports.
+    [[nodiscard]] Image picture(const Settings& settings, FrameReport* report = nullptr);
 
   private:
     FrameReport draw(const Settings& settings, gl::TimingMode timing, double* ms = nullptr);

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-EXPERIMENTS = ["rates", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation"]
+EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -66,6 +66,29 @@ def test_creation_of_maps(bounce, tmp_path):
     for size, maker, points, ms, median, ratio in imperfect:
         assert size == 32
         assert ratio == pytest.approx(classic[3] / ms)
+
+
+def test_interpolation_of_reflective_shadow_maps(bounce, tmp_path):
+    """Shares, speed-ups and frames a second follow from the figures beside them; every pixel has no error to itself."""
+    result = bounce("bench", "rsm-table1", "-o", "out", "--quick", "--size", "64x48")
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    interpolation, patterns = report["tables"]
+    names = [column["name"] for column in interpolation["columns"]]
+    rows = [dict(zip(names, row)) for row in interpolation["rows"]]
+    assert [(row["samples"], row["first pass"]) for row in rows] == [
+        (samples, size) for samples in (112, 224) for size in ("every pixel", "4x3", "8x6", "16x12")]
+    for row in rows:
+        assert row["share"] == pytest.approx(100 * row["computed"] / (64 * 48))
+        whole = next(item for item in rows if (item["samples"], item["first pass"]) == (row["samples"], "every pixel"))
+        if row is not whole:
+            assert row["speed-up"] == pytest.approx(whole["gather"] / row["gather"])
+            assert 0 < row["relMSE added"] < 0.1 and abs(row["bias added"]) < 5
+            assert row["computed"] < 64 * 48
+    literal = [row for row in patterns["rows"] if row[0] == "paper-literal"]
+    uniform = [row for row in patterns["rows"] if row[0] == "uniform-radius"]
+    assert all(abs(row[3]) < 5 for row in uniform) and all(row[3] < -5 for row in literal)
+    assert any("Quadro FX 4000" in line for line in report["paper"])
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):
