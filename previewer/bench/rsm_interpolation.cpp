@@ -26,11 +26,11 @@ struct PaperRow {
     double computed;  // indirect illuminations
 };
 const std::vector<PaperRow> k_paper_rows = {
-    {"table", 32, 112, 24.2, 63299},  {"table", 32, 224, 14.3, 63299},  {"table", 64, 112, 22.0, 66120},
-    {"table", 64, 224, 13.0, 66120},  {"lucy", 32, 112, 19.3, 77613},   {"lucy", 32, 224, 11.4, 77613},
-    {"lucy", 64, 112, 15.8, 82031},   {"lucy", 64, 224, 9.1, 82031},    {"droids", 32, 112, 16.4, 95744},
-    {"droids", 32, 224, 9.2, 95744},  {"droids", 32, 448, 4.8, 95744},  {"droids", 64, 112, 15.1, 98048},
-    {"droids", 64, 224, 7.9, 98048},  {"droids", 64, 448, 4.2, 98048},
+    {"table", 32, 112, 24.2, 63299}, {"table", 32, 224, 14.3, 63299}, {"table", 64, 112, 22.0, 66120},
+    {"table", 64, 224, 13.0, 66120}, {"lucy", 32, 112, 19.3, 77613},  {"lucy", 32, 224, 11.4, 77613},
+    {"lucy", 64, 112, 15.8, 82031},  {"lucy", 64, 224, 9.1, 82031},   {"droids", 32, 112, 16.4, 95744},
+    {"droids", 32, 224, 9.2, 95744}, {"droids", 32, 448, 4.8, 95744}, {"droids", 64, 112, 15.1, 98048},
+    {"droids", 64, 224, 7.9, 98048}, {"droids", 64, 448, 4.2, 98048},
 };
 
 // The passes that evaluate the reflective shadow map or interpolate between such evaluations.
@@ -52,10 +52,11 @@ Cell paper_cell(int first_pass, int samples, double PaperRow::*value) {
 Table interpolation_table(const BenchInputs& inputs, FrameBench& bench, Settings settings, Plot& plot,
                           Progress& progress) {
     Table table{.title = "Frames a second with screen-space interpolation",
-                .note = fmt::format("Computed: pixels whose indirect light was evaluated in full, the first pass included. "
-                                    "Error: of the frame, against every pixel with the same samples. Paper: {}, 512x512, "
-                                    "32x32 screen quads.",
-                                    k_rsm_paper_machine),
+                .note = fmt::format(
+                    "Computed: pixels whose indirect light was evaluated in full, the first pass included. "
+                    "Error: of the frame, against every pixel with the same samples. Paper: {}, 512x512, "
+                    "32x32 screen quads.",
+                    k_rsm_paper_machine),
                 .columns = {{"samples", ""},
                             {"first pass", ""},
                             {"frames", "/s"},
@@ -77,8 +78,17 @@ Table interpolation_table(const BenchInputs& inputs, FrameBench& bench, Settings
         const double all_gather = all.sum(is_gather).best();
         Series series{fmt::format("{} samples", samples), {{1.0, 1e3 / all.frame.best()}}};
         progress.step(fmt::format("{} samples, every pixel: {:.1f} ms", samples, all.frame.best()));
-        table.rows.push_back({static_cast<double>(samples), "every pixel", 1e3 / all.frame.best(), pixels, 100.0,
-                              all_gather, {}, {}, {}, {}, {}});
+        table.rows.push_back({static_cast<double>(samples),
+                              "every pixel",
+                              1e3 / all.frame.best(),
+                              pixels,
+                              100.0,
+                              all_gather,
+                              {},
+                              {},
+                              {},
+                              {},
+                              {}});
         settings.interpolate = true;
         // One in 16x16, 8x8 and 4x4 pixels: at 512x512 the paper's 32x32 and 64x64, and the default here.
         for (const int step : {16, 8, 4}) {
@@ -93,10 +103,11 @@ Table interpolation_table(const BenchInputs& inputs, FrameBench& bench, Settings
             const int first_height = (settings.height + step - 1) / step;
             const double computed = counted.gathered_pixels + static_cast<double>(first_width) * first_height;
             const double gather = measured.sum(is_gather).best();
-            progress.step(fmt::format("{} samples, first pass {}x{}: {:.1f} ms", samples, first_width, first_height,
-                                      measured.frame.best()));
+            progress.step(fmt::format("{} samples, first pass {}x{}: {:.1f} ms", samples, first_width,
+                                      first_height, measured.frame.best()));
             const bool as_paper = settings.width == k_paper_side && settings.height == k_paper_side;
-            table.rows.push_back({static_cast<double>(samples), fmt::format("{}x{}", first_width, first_height),
+            table.rows.push_back({static_cast<double>(samples),
+                                  fmt::format("{}x{}", first_width, first_height),
                                   1e3 / measured.frame.best(), computed, 100.0 * computed / pixels, gather,
                                   all_gather / gather, error.relmse, 100.0 * error.bias,
                                   as_paper ? paper_cell(first_width, samples, &PaperRow::fps) : Cell{},
@@ -115,8 +126,8 @@ Table pattern_table(const BenchInputs& inputs, FrameBench& bench, Settings setti
     settings.interpolate = false;
     settings.show = Show::indirect;
     Table table{.title = "Light that a sampling pattern keeps",
-                .note = fmt::format("Indirect light at {}x{}, against the sum over every texel of the map.", settings.width,
-                                    settings.height),
+                .note = fmt::format("Indirect light at {}x{}, against the sum over every texel of the map.",
+                                    settings.width, settings.height),
                 .columns = {{"pattern", ""}, {"samples", ""}, {"relMSE", ""}, {"bias", "%"}},
                 .rows = {}};
     settings.rsm_full_sum = true;
@@ -129,7 +140,8 @@ Table pattern_table(const BenchInputs& inputs, FrameBench& bench, Settings setti
         for (const int samples : inputs.values<int>({112, 224, 448, 1024})) {
             settings.rsm_samples = samples;
             const Metrics error = compare(bench.picture(settings), exact, HdrFlip::leave_out);
-            table.rows.push_back({name_of(pattern), static_cast<double>(samples), error.relmse, 100.0 * error.bias});
+            table.rows.push_back(
+                {name_of(pattern), static_cast<double>(samples), error.relmse, 100.0 * error.bias});
         }
         progress.step(fmt::format("pattern {}", name_of(pattern)));
     }
@@ -177,10 +189,11 @@ void measure_rsm_interpolation(const BenchInputs& inputs, BenchReport& report) {
         }
     }
     report.plots.push_back(std::move(plot));
-    report.paper = {fmt::format(
-        "\"The performance does not only depend on the total number of computed indirect illumination values, but also "
-        "suffers from pipeline stalls through the occlusion query.\" ({})",
-        k_rsm_paper_machine)};
+    report.paper = {
+        fmt::format("\"The performance does not only depend on the total number of computed indirect "
+                    "illumination values, but also "
+                    "suffers from pipeline stalls through the occlusion query.\" ({})",
+                    k_rsm_paper_machine)};
 }
 
 }  // namespace bounce::bench

@@ -34,6 +34,12 @@ SweepPoint scale(int vpls, int ism_size, int interleave) {
              std::to_string(interleave)}};
 }
 
+SweepPoint without_antialiasing(SweepPoint point) {
+    point.label += ", not antialiased";
+    point.arguments.insert(point.arguments.end(), {"--antialias", "off"});
+    return point;
+}
+
 }  // namespace
 
 const std::vector<SweepAxis>& sweep_axes() {
@@ -97,11 +103,16 @@ const std::vector<SweepAxis>& sweep_axes() {
         {"rsm-samples", "RSM samples", "pixel lights gathered at a pixel: --technique rsm --rsm-samples",
          values("--rsm-samples", {28, 112, 448, 1792}, "{} samples", {"--technique", "rsm"},
                 SweepPoint::k_one)},
+        {"antialias",
+         "Antialiasing",
+         "outlines smoothed as by Cycles' pixel filter, or not: --antialias",
+         {{"on", {"--antialias", "on"}}, {"off", {"--antialias", "off"}}}},
         {"scale",
          "Scale",
-         "VPLs, map size and interleave together, from coarse to fine",
-         {scale(32, 32, 8), scale(64, 32, 8), scale(128, 32, 4), scale(256, 32, 8), scale(512, 32, 4),
-          scale(1024, 64, 8), scale(2048, 64, 4), scale(1024, 128, 2)}},
+         "VPLs, map size and interleave together, from coarse to fine; the coarsest without antialiasing",
+         {without_antialiasing(scale(32, 32, 8)), without_antialiasing(scale(64, 32, 8)), scale(32, 32, 8),
+          scale(64, 32, 8), scale(128, 32, 4), scale(256, 32, 8), scale(512, 32, 4), scale(1024, 64, 8),
+          scale(2048, 64, 4), scale(1024, 128, 2)}},
         {"guard",
          "Guard",
          "a cheap point of each path through the renderer, for --baseline",

@@ -185,8 +185,11 @@ def scene_results(name, ratio, floor):
     """A scene's results.json, as far as the table over scenes reads it."""
     return {"scene": name,
             "own_front": {"points": 3, "compared": 2, "geometric_mean_ratio": ratio, "least_ratio": 1.5},
-            "curves": [{"name": "Presets", "points": [{"label": "auto", "seconds": 0.5, "relmse": 1e-3, "bias": 0.02}]},
-                       {"name": "Eevee", "points": [{"label": "16 samples", "seconds": 6.0, "relmse": 5e-2}]}],
+            "curves": [{"name": "Cycles", "reference_engine": True, "peer": False, "points": []},
+                       {"name": "VPLs", "reference_engine": False, "peer": False, "points": [
+                           {"label": "16 VPLs", "seconds": 0.1, "relmse": 2.6e-3}, {"label": "32 VPLs", "seconds": 0.2, "relmse": 2.5e-3}]},
+                       {"name": "Presets", "reference_engine": False, "peer": False, "points": [{"label": "auto", "seconds": 0.5, "relmse": 1e-3, "bias": 0.02}]},
+                       {"name": "Eevee", "reference_engine": False, "peer": True, "points": [{"label": "16 samples", "seconds": 6.0, "relmse": 5e-2}]}],
             "speedup_at_equal_error": [{"curve": "Presets", "label": "auto", "ratio": ratio and 3 * ratio,
                                         "cycles_time": "extrapolated"}] if ratio else [],
             "reference": {"noise_floor_relmse": floor, "frames": [
@@ -194,13 +197,14 @@ def scene_results(name, ratio, floor):
 
 
 def test_the_table_over_scenes(tmp_path):
-    """Figures by hand: ratios 2 and 8 have the geometric mean 4; Eevee takes 12 times as long for 50 times the error."""
+    """Figures by hand: ratios 2 and 8 have the geometric mean 4; Eevee takes 12 times as long for 50 times the error,
+    and 30 times as long as the fastest point with at most a twentieth of its error, 2.5e-3."""
     examples = script("evaluate_examples")
     rows = [examples.row_of(scene_results(name, ratio, 4e-5)) for name, ratio in (("a", 2.0), ("b", 8.0), ("c", None))]
     text = examples.table(rows)
     assert "default settings: geometric mean over 2 scenes 12, worst 6 (a)" in text
     assert "fronts: geometric mean over 2 scenes 4, worst 2 (a)" in text
-    assert "12x, 0.02" in text and "20.0x" in text
+    assert "12x, 0.02   30x" in text and "20.0x" in text
     examples.write_summary(tmp_path / "summary.json", rows)
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert math.isclose(summary["geometric_mean_front_ratio"], 4.0)
@@ -212,7 +216,7 @@ def test_the_table_knows_the_usual_points():
     """Without a sweep the default settings are a point of another name; without a reference's noise there is no headroom."""
     examples = script("evaluate_examples")
     results = scene_results("a", 2.0, None)
-    results["curves"][0] = {"name": "ISM", "points": [{"label": "256 VPLs", "seconds": 0.25, "relmse": 2e-3, "bias": 0.0}]}
+    results["curves"][2] = {"name": "ISM", "reference_engine": False, "peer": False, "points": [{"label": "256 VPLs", "seconds": 0.25, "relmse": 2e-3, "bias": 0.0}]}
     row = examples.row_of(results)
     assert row["seconds"] == 0.25 and math.isnan(row["ratio"]) and math.isnan(row["headroom"])
     assert "nan" in examples.table([row])
