@@ -1,80 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points on surfaces: as many as their areas say, evenly, and together all of the area.
-#include "scene/points/point_set.h"
-
+// Points that occlude: as many as their areas say, evenly, and together with the triangles that are drawn
+// whole all of the area.
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "made_scenes.h"
+#include "point_samples.h"
 #include "scene/refine.h"
 
 namespace bounce::scene::test {
 namespace {
-
-const Primitive& primitive_of(const Scene& scene, const SurfaceParts& parts, uint32_t surface) {
-    const PointSurface& s = parts.surfaces[surface];
-    return scene.meshes[static_cast<size_t>(s.mesh)].primitives[static_cast<size_t>(s.primitive)];
-}
-
-std::array<glm::dvec3, 3> corners(const Scene& scene, const SurfaceParts& parts, uint32_t surface,
-                                  const glm::uvec3& triangle) {
-    const Primitive& p = primitive_of(scene, parts, surface);
-    const Pose pose = evaluate_pose(scene, 0.0);
-    const PointSurface& s = parts.surfaces[surface];
-    const Node& node = scene.nodes[static_cast<size_t>(s.node)];
-    glm::dmat4 m = pose.world_from_node[static_cast<size_t>(s.node)];
-    m = node.instances.empty() ? m : m * node.instances[static_cast<size_t>(s.instance)];
-    std::array<glm::dvec3, 3> out;
-    for (int k = 0; k < 3; ++k) {
-        out[static_cast<size_t>(k)] = glm::dvec3(m * glm::dvec4(glm::dvec3(p.positions[triangle[k]]), 1.0));
-    }
-    return out;
-}
-
-std::vector<glm::uvec3> triangles_of(const Primitive& p) {
-    std::vector<glm::uvec3> out;
-    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-        out.emplace_back(p.indices[i], p.indices[i + 1], p.indices[i + 2]);
-    }
-    return out;
-}
-
-// For maps.
-std::array<uint32_t, 4> key(uint32_t surface, const glm::uvec3& triangle) {
-    return {surface, triangle.x, triangle.y, triangle.z};
-}
-
-double area_of(const std::array<glm::dvec3, 3>& c) {
-    return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-}
-
-PointCounts occluders(size_t count, size_t a_map, bool large) {
-    PointCounts counts;
-    counts.points_a_map = a_map;
-    counts.occluders = count;
-    counts.large_triangles = large;
-    return counts;
-}
-
-std::vector<bool> none_on_hull(const SurfaceParts& parts) {
-    return std::vector<bool>(parts.parts.size(), false);
-}
-
-// Shapes of many sizes: soup, a box in two places and two scales, a floor.
-Scene mixed_scene() {
-    Scene scene;
-    place_mesh(scene, add_mesh(scene, triangle_soup(60, 9)));
-    const int crate = add_mesh(scene, box({0.5F, 0.3F, 0.2F}));
-    place_mesh(scene, crate, turned(0.5));
-    place_mesh(scene, crate, moved({2.0, 0.0, 0.0}) * scaled({1.0, 3.0, 0.5}));
-    const int floor = place_mesh(scene, add_mesh(scene, square(3.0F)), moved({0.0, 0.0, -1.5}));
-    scene.nodes[static_cast<size_t>(floor)].instances = {glm::dmat4(1.0), moved({3.0, 0.0, 0.0})};
-    return scene;
-}
 
 TEST(PointSet, AsManyAsAreaSays) {
     const Scene scene = mixed_scene();
@@ -184,104 +122,6 @@ TEST(PointSet, RunsAreStratified) {
     for (const size_t length : {size_t{300}, size_t{805}, size_t{1000}}) {
         EXPECT_LT(variance_of_runs(set.occluders, length, 0), 0.05) << length;
     }
-}
-
-TEST(PointSet, RunsOfReflectorsFollowOneCurve) {
-    const Scene scene = mixed_scene();
-    const SurfaceParts parts = surface_parts(scene, k_all_animations);
-    PointCounts counts;
-    counts.reflectors_a_map = 128;
-    counts.reflectors = 128 * 32;
-    // What is on the hull reflects all the same.
-    const PointSet set = sample_points(parts, std::vector<bool>(parts.parts.size(), true), counts);
-    EXPECT_TRUE(set.occluders.empty());
-    EXPECT_TRUE(set.large.empty());
-    ASSERT_EQ(set.reflectors.size(), counts.reflectors);
-    EXPECT_NEAR(set.reflector_area_m2 / parts.area_m2(), 1.0, 1e-9);
-    double sum = 0.0;
-    for (const PointSample& point : set.reflectors) {
-        sum +=
-            static_cast<double>(point.share) * area_of(corners(scene, parts, point.surface, point.triangle));
-    }
-    EXPECT_NEAR(sum / parts.area_m2(), 1.0, 1e-5);
-    const auto place = [&](const PointSample& point) {
-        const std::array<glm::dvec3, 3> c = corners(scene, parts, point.surface, point.triangle);
-        return c[0] + (c[1] - c[0]) * static_cast<double>(point.second) +
-               (c[2] - c[0]) * static_cast<double>(point.third);
-    };
-    // The j-th points of all runs lie near each other, against points of runs picked anywhere.
-    double near = 0.0;
-    double any = 0.0;
-    for (size_t run = 1; run < 32; ++run) {
-        for (size_t j = 0; j < 128; ++j) {
-            const glm::dvec3 there = place(set.reflectors[run * 128 + j]);
-            near += glm::distance(place(set.reflectors[j]), there);
-            any += glm::distance(place(set.reflectors[(j + 41) % 128]), there);
-        }
-    }
-    EXPECT_LT(near, 0.4 * any);
-}
-
-TEST(PointSet, RowsOfReflectorsArePatchesOfALargeTriangle) {
-    Scene scene;
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    p.indices = {0, 1, 2};
-    place_mesh(scene, add_mesh(scene, p));
-    const SurfaceParts parts = surface_parts(scene, k_all_animations);
-    constexpr size_t rows = 128;
-    constexpr size_t runs = 64;
-    PointCounts counts;
-    counts.reflectors_a_map = rows;
-    counts.reflectors = rows * runs;
-    const PointSet set = sample_points(parts, none_on_hull(parts), counts);
-    ASSERT_EQ(set.reflectors.size(), counts.reflectors);
-    // 128 = 2^7 halvings cut the right triangle of area 1/2 into ones of legs 1/8 and sides of sqrt(2)/8.
-    const double widest = std::sqrt(2.0) / 8.0 + 1e-6;
-    double mean_x = 0.0;
-    for (size_t j = 0; j < rows; ++j) {
-        glm::dvec2 low(1.0);
-        glm::dvec2 high(0.0);
-        for (size_t run = 0; run < runs; ++run) {
-            const PointSample& point = set.reflectors[run * rows + j];
-            const glm::dvec2 at(point.second, point.third);
-            EXPECT_GE(std::min(at.x, at.y), 0.0);
-            EXPECT_LE(at.x + at.y, 1.0 + 1e-6);
-            low = glm::min(low, at);
-            high = glm::max(high, at);
-            mean_x += at.x / static_cast<double>(rows * runs);
-        }
-        EXPECT_LE(std::max(high.x - low.x, high.y - low.y), widest) << "row " << j;
-        // Points of a row fill its patch, and do not lie on one another.
-        EXPECT_GT(std::max(high.x - low.x, high.y - low.y), 0.5 / 8.0) << "row " << j;
-    }
-    EXPECT_NEAR(mean_x, 1.0 / 3.0, 2e-3) << "the triangle's centroid; random points would stray by 2.6e-3";
-}
-
-TEST(PointSet, ReflectorsFollowPlacesNotTheOrderOfNodes) {
-    const auto reflectors = [](bool turned_round) {
-        Scene scene;
-        const int mesh = add_mesh(scene, square(1.0F));
-        std::vector<glm::dvec3> at = {{0, 0, 0}, {3, 0, 1}, {6, 1, 0}, {1, 5, 2}};
-        if (turned_round) {
-            std::reverse(at.begin(), at.end());
-        }
-        for (const glm::dvec3& place : at) {
-            place_mesh(scene, mesh, moved(place));
-        }
-        const SurfaceParts parts = surface_parts(scene, k_all_animations);
-        PointCounts counts;
-        counts.reflectors_a_map = 64;
-        counts.reflectors = 256;
-        std::vector<glm::dvec3> out;
-        for (const PointSample& point :
-             sample_points(parts, std::vector<bool>(parts.parts.size(), false), counts).reflectors) {
-            const PointSurface& surface = parts.surfaces[point.surface];
-            out.emplace_back(at[static_cast<size_t>(surface.node)].x, point.second, point.third);
-        }
-        return out;
-    };
-    EXPECT_EQ(reflectors(false), reflectors(true));
 }
 
 TEST(PointSet, FlatPointsLieOnPlanes) {
@@ -428,28 +268,6 @@ TEST(PointSet, FinelyCutWallsAreDrawnWholeAllTheSame) {
             ASSERT_NE(fine_parts.surfaces[point.surface].node, 0) << "no points on what is drawn whole";
         }
     }
-}
-
-TEST(PointSet, ReflectorsStayOnThePrimitivesOwnTriangles) {
-    Scene scene;
-    place_mesh(scene, add_mesh(scene, refine(square(2.0F), refinement_by(25.0))));
-    const SurfaceParts parts = surface_parts(scene, k_all_animations);
-    PointCounts counts = occluders(256, 64, false);
-    counts.reflectors_a_map = 64;
-    counts.reflectors = 256;
-    const PointSet set = sample_points(parts, none_on_hull(parts), counts);
-    std::set<std::array<uint32_t, 4>> own;
-    for (const glm::uvec3& t : triangles_of(scene.meshes[0].primitives[0])) {
-        own.insert(key(0, t));
-    }
-    std::set<std::array<uint32_t, 4>> occluding;
-    for (const PointSample& point : set.reflectors) {
-        ASSERT_TRUE(own.contains(key(0, point.triangle)));
-    }
-    for (const PointSample& point : set.occluders) {
-        occluding.insert(key(0, point.triangle));
-    }
-    EXPECT_EQ(occluding.size(), 2U);
 }
 
 TEST(PointSet, CutOutsAreNeverDrawnWhole) {
