@@ -327,6 +327,7 @@ class Evaluator {
 }  // namespace
 
 Evaluation evaluate(const EvaluateOptions& options) {
+    remove_abandoned_scratch_folders();
     return Evaluator(options).run();
 }
 

@@ -2,6 +2,7 @@
 """`bounce evaluate` from end to end with stand-ins for the other engines: a killed run goes on, and its page works in a
 real browser."""
 
+import fcntl
 import json
 import os
 import signal
@@ -39,12 +40,23 @@ def arguments_of(engines, scene, output):
             "--cycles-spp", "1,4", "--bounces", "0", "--blender", engines / "blender"]
 
 
+def wait_until_unlocked(folder):
+    """Until the programs that a killed run had started have ended as well: they keep its temporary files."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+    finally:
+        os.close(handle)
+
+
 def jobs(engines):
     return [json.loads(line) for line in (engines / "calls").read_text(encoding="utf-8").splitlines()]
 
 
 def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, tmp_path):
-    environment = environment_of(engines, tmp_path)
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    environment = {**environment_of(engines, tmp_path), "TMPDIR": str(temporary)}
     command = arguments_of(engines, scene, "report")
     (engines / "hang").write_text("16", encoding="utf-8")
     with subprocess.Popen([binary, *map(str, command)], cwd=tmp_path, env={**os.environ, **environment},
@@ -60,9 +72,14 @@ def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, t
     finished = (points[0] / "stats.json").stat().st_mtime_ns
     before = len(jobs(engines))
     (engines / "hang").unlink()
+    left = list(temporary.iterdir())
+    assert left, "a killed process cannot remove its folders"
+    for folder in left:
+        wait_until_unlocked(folder)
 
     done = bounce(*command, "--resume", environment=environment)
     assert done.returncode == 0, done.stderr
+    assert not list(temporary.iterdir()), "the next run removes them"
     again = jobs(engines)[before:]
     assert [job["script"] for job in again] == ["cycles_render.py"], "Eevee and f3d were finished"
     asked = [(frame["frame"], item["spp"]) for frame in again[0]["frames"] for item in frame["renders"]]
