@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 
+#include <csignal>
 #include <exception>
 #include <new>
 
@@ -10,6 +11,9 @@
 namespace bounce::cli {
 
 int run(int argc, char** argv) {
+    // A file that grows past the limit of `ulimit -f` is then an error of the write, which is told, and not
+    // the end.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app{
         "Bounce previews animated scenes with global illumination and says how far from Cycles they are."};
     app.name("bounce");

@@ -23,14 +23,10 @@ fs::path temporary_name(const fs::path& target) {
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_(temporary_name(target_)) {
-    std::error_code code;
     if (target_.has_parent_path()) {
-        fs::create_directories(target_.parent_path(), code);
-        if (code) {
-            throw output_error(fmt::format("cannot create the output folder {}: {}",
-                                           target_.parent_path().string(), code.message()));
-        }
+        create_folder(target_.parent_path());
     }
+    std::error_code code;
     if (fs::is_directory(target_, code)) {
         throw output_error(
             fmt::format("cannot write {}: it is a folder; give a file name", target_.string()));
@@ -59,17 +55,26 @@ void AtomicFile::commit() {
     committed_ = true;
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
+void write_file(const fs::path& path, std::string_view bytes) {
     AtomicFile file(path);
     {
         std::ofstream out(file.temporary_path(), std::ios::binary);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
         if (!out) {
             throw output_error(fmt::format("cannot write {}: the disk may be full", path.string()));
         }
     }
     file.commit();
+}
+
+void create_folder(const fs::path& folder) {
+    std::error_code code;
+    fs::create_directories(folder, code);
+    if (code) {
+        throw output_error(
+            fmt::format("cannot create the output folder {}: {}", folder.string(), code.message()));
+    }
 }
 
 void require_writable(const fs::path& path) {

@@ -31,8 +31,15 @@ class AtomicFile {
     bool committed_ = false;
 };
 
-// Writes the whole text to path, atomically. Throws output_error.
-void write_text_file(const std::filesystem::path& path, std::string_view text);
+// Writes all of the bytes to path, atomically; a disk that takes only a part of them is an error. Throws
+// output_error.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+inline void write_text_file(const std::filesystem::path& path, std::string_view text) {
+    write_file(path, text);
+}
+
+// Makes a folder and those above it that are missing. Throws output_error.
+void create_folder(const std::filesystem::path& folder);
 
 // Throws output_error unless a file can be created in path's folder; so that hours of rendering do
 // not end at a folder that cannot be written.

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "core/disk_room.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/process.h"
@@ -31,6 +32,9 @@ bool is_blend(const fs::path& path) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension == ".blend";
 }
+
+// A disk with less is taken for full where an export has failed: what was written of it still lies there.
+constexpr size_t k_room_bytes = size_t{64} << 10U;
 
 // Runs after the export in the same Blender: the images, libraries and other files that the .blend
 // refers to, because a change in one of them must lead to a new export.
@@ -75,12 +79,20 @@ void export_blend(const fs::path& blend, const fs::path& blender, const fs::path
     log::debug("{}", result.output);
     std::error_code code;
     // Blender may end with 0 after a failure; an empty file is what AtomicFile made.
-    if (result.exit_code != 0 || fs::file_size(output.temporary_path(), code) == 0 || code) {
+    const bool failed = result.exit_code != 0 || fs::file_size(output.temporary_path(), code) == 0 || code;
+    std::ifstream in(listing.temporary_path());
+    const auto paths = nlohmann::json::parse(in, nullptr, false);
+    if (failed || !paths.is_array()) {
+        // Not the scene's fault, whatever Blender said.
+        if (const std::error_code full = check_room(target.parent_path(), k_room_bytes)) {
+            throw output_error(fmt::format("there is no room for the export of {} in the cache folder {}: {}",
+                                           blend.string(), target.parent_path().string(), full.message()));
+        }
+    }
+    if (failed) {
         throw input_error(
             fmt::format("Blender could not export {}: {}", blend.string(), reason_in(result.output)));
     }
-    std::ifstream in(listing.temporary_path());
-    const auto paths = nlohmann::json::parse(in, nullptr, false);
     if (!paths.is_array()) {
         throw input_error(fmt::format("Blender did not list the files that {} refers to", blend.string()));
     }

@@ -12,6 +12,7 @@
 #include "evaluate/blender_export.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/embedded.h"
+#include "evaluate/picture_room.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -44,7 +45,8 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
     }
     command.insert(command.end(), {"--python-exit-code", "1", "-P", (scratch / script.name).string(), "--",
                                    (scratch / "job.json").string()});
-    std::optional<std::string> error;
+    std::optional<std::string> reason;
+    std::optional<Error> error;
     const ProcessResult process = run_process(command, [&](std::string_view line) {
         // Blender's own status lines end without a newline where the script's output follows.
         const size_t at = line.find(k_event_prefix);
@@ -52,30 +54,36 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
             if (on_line) on_line(line);
             return;
         }
-        if (error) {
+        if (reason) {
             return;
         }
         try {
             const json event = json::parse(line.substr(at + k_event_prefix.size()));
             const auto kind = event.at("event").get<std::string>();
             if (kind == "error") {
-                error = event.at("message").get<std::string>();
+                reason = event.at("message").get<std::string>();
             } else {
                 on_event(kind, event);
             }
         } catch (const json::exception& exception) {
-            error = fmt::format("what Blender told cannot be read ({})", exception.what());
+            reason = fmt::format("what Blender told cannot be read ({})", exception.what());
         } catch (const Error& exception) {
-            error = exception.what();  // Blender is let end first
+            reason = exception.what();  // Blender is let end first
+            error = exception;
         }
     });
-    const bool failed = process.exit_code != 0 || error.has_value();
+    const bool failed = process.exit_code != 0 || reason.has_value();
     if (failed) {
         log::debug("{}", process.output);
     }
-    return {failed, error ? *error
-                          : fmt::format("Blender ended with code {} after \"{}\"", process.exit_code,
-                                        last_line(process.output))};
+    if (!reason) {
+        reason = fmt::format("Blender ended with code {} after \"{}\"", process.exit_code,
+                             last_line(process.output));
+    }
+    if (failed && !error) {
+        error = no_room_for_picture(scratch.path(), description.at("width"), description.at("height"));
+    }
+    return {failed, error ? error->what() : *reason, error};
 }
 
 }  // namespace bounce

@@ -5,16 +5,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "evaluate/scratch_folder.h"
 
 namespace bounce {
 
+// description: has "width" and "height" beside what the script wants.
 struct BlenderScript {
     std::filesystem::path blender;
     std::filesystem::path scene;       // .blend is opened by Blender, anything else imported by the script
@@ -27,6 +30,8 @@ struct BlenderScript {
 struct BlenderEnd {
     bool failed = false;
     std::string reason;  // the script's own, or how Blender ended; filled also where nothing failed
+    // What is not the scene's fault: what on_event threw, or that there is no room for temporary files.
+    std::optional<Error> error;
 };
 
 // Calls on_event for each event that the script tells, with its kind, until one fails, and on_line for all

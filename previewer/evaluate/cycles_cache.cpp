@@ -2,11 +2,14 @@
 #include "evaluate/cycles_cache.h"
 
 #include <algorithm>
+#include <string>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/log.h"
+#include "evaluate/picture_room.h"
 #include "image/image_io.h"
 
 namespace bounce {
@@ -77,13 +80,14 @@ CyclesReport run_cycles_cached(
         missing.renders.push_back(render);
     }
     CyclesReport report = kept;
+    std::string unreadable;
     if (!missing.renders.empty()) {
         report = run_cycles(missing, blender, [&](const CyclesRender& render, const CyclesReport& so_far) {
             CachedRender item;
             try {
                 item.image = read_image(render.output);
             } catch (const Error& error) {
-                log::warning("a picture of Cycles is not kept: {}", error.what());
+                unreadable = error.what();
                 return;
             }
             item.seconds = render.seconds;
@@ -99,6 +103,13 @@ CyclesReport run_cycles_cached(
                 on_render(render, so_far);
             }
         });
+        if (!unreadable.empty()) {
+            const auto full =
+                no_room_for_picture(job.renders.front().output.parent_path(), job.width, job.height);
+            throw full
+                ? *full
+                : Error(ExitCode::failed, fmt::format("a picture of Cycles is damaged: {}", unreadable));
+        }
         done.insert(done.end(), report.renders.begin(), report.renders.end());
     }
     report.renders.clear();

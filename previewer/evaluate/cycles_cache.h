@@ -16,7 +16,8 @@ using CyclesKey = std::function<std::string(const CyclesRender&)>;
 
 // run_cycles, but a picture that is in the cache is not rendered again, and each new one is kept as soon as
 // it is done: a killed run goes on behind the last picture. Outputs of both kinds are written. With fresh
-// nothing is taken from the cache.
+// nothing is taken from the cache. A picture that cannot be read does not end the job, so that later ones are
+// kept; at its end it is an Error (failed), that of a full disk where there is no room for pictures.
 [[nodiscard]] CyclesReport run_cycles_cached(
     const CyclesJob& job, const std::filesystem::path& blender, const RenderCache& cache,
     const CyclesKey& key, bool fresh,

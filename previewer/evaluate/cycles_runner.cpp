@@ -114,6 +114,9 @@ CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
          .display = {}},
         scratch, [&](const std::string& kind, const json& event) { listener.handle(kind, event); },
         [&](std::string_view line) { listener.line(line); });
+    if (end.error) {
+        throw *end.error;
+    }
     if (end.failed || !listener.complete()) {
         throw input_error(fmt::format("Cycles could not render {}: {}", job.scene.string(), end.reason));
     }

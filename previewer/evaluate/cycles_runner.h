@@ -46,7 +46,8 @@ struct CyclesReport {
 // Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
 // `bounces` bounces, diffuse or glossy, no clamping, no denoiser, no adaptive sampling; pixel
 // filter Blackman-Harris, width 1.5 (evaluate/cycles_render.py says how each is set). on_render is called
-// after each picture, with what is known so far. Throws input_error where Blender cannot render the scene.
+// after each picture, with what is known so far. Throws input_error where Blender cannot render the scene,
+// output_error where there is no room for temporary files, and what on_render throws.
 [[nodiscard]] CyclesReport run_cycles(
     const CyclesJob& job, const std::filesystem::path& blender,
     const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});

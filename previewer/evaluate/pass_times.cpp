@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/process.h"
@@ -37,7 +38,7 @@ PassTimes pass_times_of(const nlohmann::json& stats) {
 
 PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const PreviewRun& run, int frame,
                          int width, int height, int repeat, const fs::path& folder) {
-    fs::create_directories(folder);
+    create_folder(folder);
     const fs::path stats = folder / "passes.json";
     std::vector<std::string> command{bounce.string(),
                                      "render",

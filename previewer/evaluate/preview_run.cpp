@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/process.h"
@@ -120,7 +121,7 @@ std::vector<PreviewRun> default_preview_runs(int bounces) {
 PreviewResult run_preview(const fs::path& bounce, const fs::path& scene, const PreviewRun& run,
                           const std::vector<int>& frames, int width, int height, int repeat,
                           const fs::path& folder) {
-    fs::create_directories(folder);
+    create_folder(folder);
     const fs::path stats = folder / "stats.json";
     std::vector<std::string> command{bounce.string(),
                                      "render",

@@ -120,11 +120,17 @@ void store_reference(const fs::path& folder, const ReferenceKey& key, const Refe
                                                    "\n");
     // The record has let go of the image with fewer samples only now: a run that is killed in between keeps
     // one of the two.
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string file = entry.path().filename().string();
-        if (file.starts_with(name + "-") && entry.path().extension() == ".exr" && entry.path() != image) {
-            fs::remove(entry.path());
+    std::error_code ignored;
+    std::vector<fs::path> old;
+    for (fs::directory_iterator entry(folder, ignored); !ignored && entry != fs::directory_iterator();
+         entry.increment(ignored)) {
+        const std::string file = entry->path().filename().string();
+        if (file.starts_with(name + "-") && entry->path().extension() == ".exr" && entry->path() != image) {
+            old.push_back(entry->path());
         }
+    }
+    for (const fs::path& file : old) {
+        fs::remove(file, ignored);
     }
 }
 

@@ -47,7 +47,8 @@ struct Reference {
 
 // Reads and writes <folder>/<name>.json and the image that it names. Nothing where there is none, where it
 // cannot be read, or where a file that the scene refers to has changed. A reference with more samples takes
-// the place of one with fewer under the same key.
+// the place of one with fewer under the same key; where it cannot be written (output_error) the old one
+// stays.
 [[nodiscard]] std::optional<Reference> load_reference(const std::filesystem::path& folder,
                                                       const ReferenceKey& key);
 void store_reference(const std::filesystem::path& folder, const ReferenceKey& key, const Reference& reference,

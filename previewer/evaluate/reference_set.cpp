@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -133,10 +134,21 @@ void ReferenceSet::add(const Batch& batch, const CyclesRender& half1, const Cycl
     std::optional<Reference>& known = references_.at(batch.frame);
     known = known ? merge(*known, reference) : std::move(reference);
     known->cached = false;
-    store_reference(folder_, key_of(batch.frame), *known, scene_files);
-    // The reference holds them now.
-    renders_.remove(key_(half1));
-    renders_.remove(key_(half2));
+    try {
+        store_reference(folder_, key_of(batch.frame), *known, scene_files);
+        // The reference holds them now.
+        renders_.remove(key_(half1));
+        renders_.remove(key_(half2));
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::failed) {
+            throw;
+        }
+        log::warning("the reference of frame {} is not kept for later runs: {}", batch.frame, error.what());
+    }
+    for (const fs::path& half : {half1.output, half2.output}) {
+        std::error_code ignored;
+        fs::remove(half, ignored);  // a reference of many batches would fill the folder for temporary files
+    }
 }
 
 void ReferenceSet::warn_of_high_floors(const SmallestError& smallest_error) const {

@@ -112,6 +112,7 @@ void RenderCache::store_or_warn(const std::string& key, const CachedRender& rend
     try {
         store(key, render, scene_files);
     } catch (const Error& error) {
+        remove(key);  // a picture without its record only takes room
         log::warning("a picture is not kept for later runs: {}", error.what());
     }
 }

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "gl/debug_output.h"
+#include "gl/shader_cache_room.h"
 
 namespace bounce::gl {
 namespace {
@@ -57,6 +58,7 @@ struct HeadlessContext::Impl {
 };
 
 HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
+    leave_shader_cache_where_disk_is_full();
     impl_->display = open_display();
     EGLint major = 0;
     EGLint minor = 0;

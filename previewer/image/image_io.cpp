@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -144,29 +145,37 @@ void write_image(const fs::path& path, const Image& image, const ImageAttributes
         spec.attribute(key, value);
     }
 
-    AtomicFile file(path);
-    const auto output = OIIO::ImageOutput::create(file.temporary_path().string());
+    const auto output = OIIO::ImageOutput::create(path.string());
     if (!output) {
         (void)OIIO::geterror();  // else OpenImageIO prints it when the program ends
         throw output_error(
             fmt::format("cannot write {}: \"{}\" is no image format known here; use .exr or .png",
                         path.string(), path.extension().string()));
     }
-    const auto fail = [&] {
-        throw output_error(
-            fmt::format("cannot write the image {}: {}", path.string(), one_line(output->geterror())));
+    const auto encode = [&](const fs::path& name) {
+        const bool written =
+            output->open(name.string(), spec) &&
+            (linear ? output->write_image(OIIO::TypeDesc::FLOAT,
+                                          half ? within_half(image, path).data() : image.rgb.data())
+                    : output->write_image(OIIO::TypeDesc::UINT8, to_bytes(image).data()));
+        if (!written || !output->close()) {
+            throw output_error(
+                fmt::format("cannot write the image {}: {}", path.string(), one_line(output->geterror())));
+        }
     };
-    if (!output->open(file.temporary_path().string(), spec)) {
-        fail();
+    if (output->supports("ioproxy")) {
+        // In memory first: on a full disk OpenImageIO's writers leave a part of the file, or an empty one,
+        // and say that all went well.
+        OIIO::Filesystem::IOVecOutput memory;
+        output->set_ioproxy(&memory);
+        encode(path);
+        const auto& bytes = memory.buffer();
+        write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    } else {  // some rare formats
+        AtomicFile file(path);
+        encode(file.temporary_path());
+        file.commit();
     }
-    const bool written = linear
-                             ? output->write_image(OIIO::TypeDesc::FLOAT,
-                                                   half ? within_half(image, path).data() : image.rgb.data())
-                             : output->write_image(OIIO::TypeDesc::UINT8, to_bytes(image).data());
-    if (!written || !output->close()) {
-        fail();
-    }
-    file.commit();
 }
 
 Image read_image(const fs::path& path) {

@@ -12,6 +12,7 @@
 #include <GLFW/glfw3.h>
 
 #include "core/error.h"
+#include "gl/shader_cache_room.h"
 
 namespace bounce::viewer {
 namespace {
@@ -49,6 +50,7 @@ glm::ivec2 fit_to_screen(glm::ivec2 size) {
 
 struct Window::Library {
     Library() {
+        gl::leave_shader_cache_where_disk_is_full();
         if (glfwInit() != GLFW_TRUE) {
             throw no_window(last_error());
         }

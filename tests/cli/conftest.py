@@ -6,6 +6,7 @@ import subprocess
 
 import pytest
 
+import fake_engines
 import gltf_scenes
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -54,3 +55,16 @@ def render(bounce):
 def scene(tmp_path):
     """A lit square as .glb, four frames long from frame 10 at 25 a second."""
     return gltf_scenes.write_glb(tmp_path / "scene.glb", gltf_scenes.lit_square())
+
+
+@pytest.fixture
+def engines(tmp_path, bounce, scene):
+    """A folder with the other engines' stand-ins, which render what Bounce does."""
+    folder = tmp_path / "engines"
+    folder.mkdir()
+    fake_engines.install(folder)
+    for name in ("engine.exr", "engine.png"):
+        done = bounce("render", scene, "-o", folder / name, "--frames", "10", "--technique", "direct", "--size",
+                      fake_engines.SIZE)
+        assert done.returncode == 0, done.stderr
+    return folder

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Small programs in the place of Blender, f3d and xvfb-run: `bounce evaluate` runs in a second with them."""
 
+import json
+import os
 import stat
+
+SIZE = "32x18"
 
 BLENDER = r"""#!/usr/bin/env python3
 import json, os, shutil, sys, time
@@ -61,3 +65,21 @@ def install(folder):
         path = folder / name
         path.write_text(text, encoding="utf-8")
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+def environment_of(engines, tmp_path):
+    # The driver's cache of shaders is left where it is: to compile them all anew takes longer than the rest.
+    shaders = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return {"PATH": f"{engines}:/usr/bin:/bin", "DISPLAY": "", "XDG_CACHE_HOME": str(tmp_path / "cache"),
+            "MESA_SHADER_CACHE_DIR": shaders}
+
+
+def arguments_of(engines, scene, output):
+    # Without bounces one run of Bounce's own is all there is.
+    return ["evaluate", scene, "-o", output, "--frames", "10,11", "--size", SIZE, "--reference-spp", "32", "--repeat", "2",
+            "--cycles-spp", "1,4", "--bounces", "0", "--blender", engines / "blender"]
+
+
+def jobs(engines):
+    """What the stand-in for Blender was started for, in order."""
+    return [json.loads(line) for line in (engines / "calls").read_text(encoding="utf-8").splitlines()]

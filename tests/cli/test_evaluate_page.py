@@ -12,32 +12,9 @@ import time
 import pytest
 
 import browser
-import fake_engines
+from fake_engines import arguments_of, environment_of, jobs
 
-SIZE = "32x18"
 CHROMIUM = browser.find()
-
-
-@pytest.fixture
-def engines(tmp_path, bounce, scene):
-    """A folder with the other engines' stand-ins, which render what Bounce does, and the environment that finds them."""
-    folder = tmp_path / "engines"
-    folder.mkdir()
-    fake_engines.install(folder)
-    for name in ("engine.exr", "engine.png"):
-        done = bounce("render", scene, "-o", folder / name, "--frames", "10", "--technique", "direct", "--size", SIZE)
-        assert done.returncode == 0, done.stderr
-    return folder
-
-
-def environment_of(engines, tmp_path):
-    return {"PATH": f"{engines}:/usr/bin:/bin", "DISPLAY": "", "XDG_CACHE_HOME": str(tmp_path / "cache")}
-
-
-def arguments_of(engines, scene, output):
-    # Without bounces one run of Bounce's own is all there is.
-    return ["evaluate", scene, "-o", output, "--frames", "10,11", "--size", SIZE, "--reference-spp", "32", "--repeat", "2",
-            "--cycles-spp", "1,4", "--bounces", "0", "--blender", engines / "blender"]
 
 
 def wait_until_unlocked(folder):
@@ -47,10 +24,6 @@ def wait_until_unlocked(folder):
         fcntl.flock(handle, fcntl.LOCK_EX)
     finally:
         os.close(handle)
-
-
-def jobs(engines):
-    return [json.loads(line) for line in (engines / "calls").read_text(encoding="utf-8").splitlines()]
 
 
 def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, tmp_path):

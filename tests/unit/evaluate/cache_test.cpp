@@ -13,6 +13,7 @@
 #include "evaluate/blender_export.h"
 #include "evaluate/reference.h"
 #include "evaluate/sha256.h"
+#include "file_size_limit.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "temporary_folder.h"
@@ -300,6 +301,15 @@ TEST(ResolveScene, PassesOnWhyTheExportFailed) {
         EXPECT_THAT(error.what(), testing::EndsWith("a.blend: no camera"));
     }
     EXPECT_TRUE(fs::is_empty(folder / "cache/bounce/exports")) << "a failed export left a file";
+
+    const test::FileSizeLimit full(60000);  // less than an export is given
+    try {
+        (void)resolve_scene(folder / "a.blend", {folder / "blender"});
+        FAIL() << "resolved";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::failed);
+        EXPECT_THAT(error.what(), testing::HasSubstr("there is no room for the export of"));
+    }
 }
 
 }  // namespace

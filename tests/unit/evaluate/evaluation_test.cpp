@@ -11,6 +11,7 @@
 #include "environment.h"
 #include "evaluate/report.h"
 #include "fake_programs.h"
+#include "file_size_limit.h"
 #include "temporary_folder.h"
 
 namespace bounce {
@@ -271,6 +272,57 @@ TEST_F(EvaluateTest, GoesOnWhereItStopped) {
     std::ofstream(options_.bounce, std::ios::app) << "# changed\n";
     (void)evaluate(options_);
     EXPECT_EQ(calls("bounce_calls"), 3 + 3);
+}
+
+// First of Cycles' points, then of the references' halves.
+TEST_F(EvaluateTest, APictureThatWasCutOffIsNotTheEndOfTheOthers) {
+    const auto failure = [&] {
+        try {
+            (void)evaluate(options_);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::failed);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    options_.point_folder = folder_ / "report/points";
+    options_.resume = true;
+    for (const int spp : {4, 16}) {
+        std::ofstream(folder_ / "cycles_cut") << spp;
+        const size_t before = blender_jobs().size();
+        EXPECT_NE(failure().find("a picture of Cycles is damaged"), std::string::npos) << spp;
+        EXPECT_LE(blender_jobs().size(), before + 2) << "it was rendered again and again";
+    }
+    std::filesystem::remove(folder_ / "cycles_cut");
+    EXPECT_EQ(evaluate(options_).references.size(), 2U);
+    const std::vector<std::string> jobs = blender_jobs();
+    ASSERT_EQ(jobs.size(), 4U);
+    EXPECT_EQ(jobs[1].find("cycles_1_1.exr"), std::string::npos) << "whole pictures are kept";
+    EXPECT_NE(jobs[1].find("cycles_24_4.exr"), std::string::npos);
+}
+
+TEST_F(EvaluateTest, NoRoomForPicturesIsASentence) {
+    std::ofstream(folder_ / "cycles_cut") << 4;
+    const test::FileSizeLimit limit(
+        60000);  // less than the room that a picture is given, more than anything here
+    try {
+        (void)evaluate(options_);
+        FAIL() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::failed);
+        EXPECT_NE(std::string(error.what()).find("there is no room for temporary files in"),
+                  std::string::npos);
+    }
+}
+
+TEST_F(EvaluateTest, ACacheThatTakesNothingIsNotTheEnd) {
+    std::filesystem::create_directories(folder_ / "cache/bounce");
+    for (const char* name : {"references", "renders"}) {
+        std::ofstream(folder_ / "cache/bounce" / name) << "not a folder";
+    }
+    const Evaluation result = evaluate(options_);
+    EXPECT_EQ(result.references[1].spp, 32);
+    EXPECT_FALSE(result.references[1].cached);
 }
 
 TEST_F(EvaluateTest, LooksIntoTheFrames) {

@@ -53,7 +53,8 @@ echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames
 }
 
 // `blender`: answers --version; as a renderer of the job it copies cycles.exr to each output, and tells
-// of 2 s a sample. Its job files are appended to blender_calls; a file cycles_fail_after N ends it behind N renders.
+// of 2 s a sample. Its job files are appended to blender_calls; a file cycles_fail_after N ends it behind N renders, one
+// cycles_cut N cuts off the pictures of N samples, as the real one does without a word on a full disk.
 inline std::filesystem::path fake_blender(const std::filesystem::path& folder) {
     return write_script(folder / "blender", R"py(#!/usr/bin/env python3
 import json, os, shutil, sys
@@ -77,6 +78,8 @@ for frame in job["frames"]:
         tell(event="begin")
         print("Fra:1 | Scene, ViewLayer | Sample 0/%d" % item["spp"], flush=True)
         shutil.copy(here + "/cycles.exr", item["output"])
+        if os.path.exists(here + "/cycles_cut") and int(open(here + "/cycles_cut").read()) == item["spp"]:
+            os.truncate(item["output"], 300)
         tell(event="render", frame=frame["frame"], spp=item["spp"], seed=item["seed"], seconds=2.0 * item["spp"],
              output=item["output"])
 )py");

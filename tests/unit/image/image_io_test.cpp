@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "file_size_limit.h"
 #include "temporary_folder.h"
 
 // libpng leaves OpenImageIO 2.4's reader of a cut PNG by longjmp, past the destructor of a string.
@@ -165,6 +166,27 @@ TEST(ImageIo, AFailedWriteLeavesWhatWasThere) {
     EXPECT_EQ(bytes_of(folder / "a.exr"), before);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 1)
         << "a temporary file stayed behind";
+}
+
+// The small ones lie in the writers' buffers until they are closed, where OpenImageIO does not look for
+// errors.
+TEST(ImageIo, AFullDiskIsAnErrorAndLeavesWhatWasThere) {
+    const TemporaryFolder folder;
+    Image large(64, 64);
+    for (size_t i = 0; i < large.rgb.size(); ++i) {
+        large.rgb[i] = static_cast<float>(i * 7919U % 10007U) / 10007.0F;
+    }
+    for (const char* extension : {".exr", ".png", ".hdr", ".tif", ".tga", ".jpg"}) {
+        const fs::path path = folder / (std::string("a") + extension);
+        for (const Image& image : {Image(2, 2), large}) {
+            write_image(path, image);
+            const std::string before = bytes_of(path);
+            const test::FileSizeLimit limit(before.size() - 1);
+            EXPECT_THROW(write_image(path, image), Error) << path << ' ' << image.width;
+            EXPECT_EQ(bytes_of(path), before) << path;
+        }
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator{}), 6);
 }
 
 TEST(ImageIo, MakesMissingFolders) {
