@@ -11,6 +11,7 @@
 #include "core/process.h"
 #include "evaluate/blender_export.h"
 #include "evaluate/cycles_runner.h"
+#include "evaluate/draco_check.h"
 #include "evaluate/embedded.h"
 #include "evaluate/picture_room.h"
 
@@ -31,6 +32,7 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
     json description = script.description;
     description["scene"] = fs::absolute(script.scene).string();
     if (!blend) {
+        require_draco_library(script.scene, script.blender);
         description["addon"] = find_addon().string();  // its Draco library decodes the file
     }
     write_text_file(scratch / "blender_job.py", embedded::blender_job_py());

@@ -13,6 +13,7 @@
 #include "core/progress.h"
 #include "evaluate/cache.h"
 #include "evaluate/cycles_cache.h"
+#include "evaluate/draco_check.h"
 #include "evaluate/reference_set.h"
 #include "evaluate/report.h"
 #include "evaluate/scene_files.h"
@@ -69,6 +70,9 @@ class Evaluator {
         }
         references_.emplace(reference_source(), cache_folder() / "references", render_cache_,
                             [this](const CyclesRender& render) { return cycles_key(render); });
+        if (references_->lacks_any()) {
+            require_draco_library(options.scene, blender_);  // before Bounce's own points take their minutes
+        }
     }
 
     Evaluation run() {

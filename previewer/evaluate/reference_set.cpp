@@ -33,6 +33,10 @@ ReferenceKey ReferenceSet::key_of(int frame) const {
             source_.goal.spp,   source_.bounces, source_.blender_version, cycles_scripts_hash()};
 }
 
+bool ReferenceSet::lacks_any() const {
+    return std::any_of(references_.begin(), references_.end(), [](const auto& item) { return !item.second; });
+}
+
 std::vector<Reference> ReferenceSet::all() const {
     std::vector<Reference> result;
     for (const int frame : source_.frames) {

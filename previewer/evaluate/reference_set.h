@@ -47,6 +47,9 @@ class ReferenceSet {
     // Cycles cannot render the scene or its picture has values that are not numbers.
     std::optional<CyclesReport> render(const SmallestError& smallest_error);
 
+    // Whether a frame has none yet, so that Cycles must render one.
+    [[nodiscard]] bool lacks_any() const;
+
     [[nodiscard]] const Reference& at(int frame) const { return *references_.at(frame); }
     [[nodiscard]] std::vector<Reference> all() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/scene_files.h"
 
+#include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <iterator>
@@ -74,6 +75,15 @@ std::vector<fs::path> gltf_external_files(const fs::path& gltf) {
         }
     }
     return files;
+}
+
+bool gltf_uses_extension(const fs::path& gltf, std::string_view name) {
+    const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
+    if (!json.is_object() || !json.contains("extensionsUsed") || !json["extensionsUsed"].is_array()) {
+        return false;
+    }
+    return std::any_of(json["extensionsUsed"].begin(), json["extensionsUsed"].end(),
+                       [&](const nlohmann::json& used) { return used == name; });
 }
 
 std::string sha256_of_gltf(const fs::path& gltf) {

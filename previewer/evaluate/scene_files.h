@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bounce {
@@ -14,5 +15,8 @@ namespace bounce {
 // SHA-256 of the scene as the renderer sees it: the file and all files that it refers to. A missing one
 // counts as such. Throws input_error where the scene itself cannot be read.
 [[nodiscard]] std::string sha256_of_gltf(const std::filesystem::path& gltf);
+
+// Whether the file lists the extension as used. False where it cannot be read, and for a .blend.
+[[nodiscard]] bool gltf_uses_extension(const std::filesystem::path& gltf, std::string_view name);
 
 }  // namespace bounce

@@ -230,6 +230,24 @@ TEST_F(EvaluateTest, CyclesFailureIsASentence) {
     }
 }
 
+TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
+    const Environment none("BLENDER_EXTERN_DRACO_LIBRARY_PATH", "");
+    std::ofstream(folder_ / "scene.glb") << R"({"extensionsUsed": ["KHR_draco_mesh_compression"]})";
+    try {
+        (void)evaluate(options_);
+        FAIL() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::failed);
+        EXPECT_NE(std::string(error.what()).find("build the target extern_draco"), std::string::npos);
+    }
+    EXPECT_EQ(calls("bounce_calls") + calls("blender_calls"), 0);
+    std::filesystem::create_directories(folder_ / "build/release");
+    std::ofstream(folder_ / "build/release/libextern_draco.so") << "a library";
+    EXPECT_FALSE(evaluate(options_).references[0].cached);
+    std::filesystem::remove_all(folder_ / "build");
+    EXPECT_TRUE(evaluate(options_).references[0].cached) << "what is finished needs no Draco";
+}
+
 TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
     options_.source.blender = test::write_script(folder_ / "other", "#!/bin/sh\necho hello\n");
     EXPECT_THROW((void)evaluate(options_), Error);
