@@ -141,7 +141,8 @@ nlohmann::ordered_json baseline_json(const Evaluation& evaluation) {
 
 Baseline read_baseline(const std::filesystem::path& path) {
     std::ifstream in(path);
-    if (!in) {
+    std::error_code ignored;
+    if (!in || std::filesystem::is_directory(path, ignored)) {
         throw input_error(fmt::format("cannot read the baseline {}", path.string()));
     }
     const auto json = nlohmann::json::parse(in, nullptr, false);

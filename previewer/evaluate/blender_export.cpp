@@ -97,7 +97,9 @@ void export_blend(const fs::path& blend, const fs::path& blender, const fs::path
         throw input_error(fmt::format("Blender did not list the files that {} refers to", blend.string()));
     }
     output.commit();
-    write_file_hashes(record, hash_files(paths.get<std::vector<fs::path>>()), result.seconds);
+    auto files = paths.get<std::vector<fs::path>>();
+    files.push_back(target);  // so that a damaged or foreign export is made again
+    write_file_hashes(record, hash_files(files), result.seconds);
 }
 
 }  // namespace

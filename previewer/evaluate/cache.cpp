@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "evaluate/record_file.h"
 #include "evaluate/sha256.h"
 
 namespace bounce {
@@ -46,15 +46,13 @@ void write_file_hashes(const fs::path& record, const std::vector<FileHash>& hash
 }
 
 double recorded_seconds(const fs::path& record) {
-    std::ifstream in(record);
-    const auto json = nlohmann::json::parse(in, nullptr, false);
+    const auto json = read_record(record);
     const bool told = json.is_object() && json.contains("seconds") && json["seconds"].is_number();
     return told ? json["seconds"].get<double>() : 0.0;
 }
 
 std::vector<fs::path> recorded_files(const fs::path& record) {
-    std::ifstream in(record);
-    const auto json = nlohmann::json::parse(in, nullptr, false);
+    const auto json = read_record(record);
     std::vector<fs::path> files;
     if (json.is_object() && json.contains("files") && json["files"].is_object()) {
         for (const auto& [path, hash] : json["files"].items()) {
@@ -65,8 +63,7 @@ std::vector<fs::path> recorded_files(const fs::path& record) {
 }
 
 bool files_unchanged(const fs::path& record) {
-    std::ifstream in(record);
-    const auto json = nlohmann::json::parse(in, nullptr, false);
+    const auto json = read_record(record);
     if (!json.is_object() || !json.contains("files") || !json["files"].is_object()) {
         return false;
     }

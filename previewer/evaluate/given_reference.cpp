@@ -2,10 +2,12 @@
 #include "evaluate/given_reference.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -30,7 +32,15 @@ fs::path path_of(const std::string& name, int frame) {
                                    : std::string(name).replace(at, field.size(), fmt::format("{:04}", frame));
 }
 
-// A number of the header; nothing where it is not there. Throws input_error where it is no number.
+// What a header says, to stand in one line of a sentence.
+std::string printable(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    return text.substr(0, 200);
+}
+
+// A number of the header; nothing where it is not there. Throws input_error where it is no number, or one
+// that a time or an error cannot be.
 template <typename T>
 std::optional<T> number(const ImageAttributes& attributes, const char* name, const fs::path& path) {
     const auto found = attributes.find(name);
@@ -40,9 +50,13 @@ std::optional<T> number(const ImageAttributes& attributes, const char* name, con
     const std::string& text = found->second;
     T value{};
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc{} || end != text.data() + text.size()) {
-        throw input_error(
-            fmt::format("the reference {} says {} = '{}', which is no number", path.string(), name, text));
+    bool usable = code == std::errc{} && end == text.data() + text.size();
+    if constexpr (std::is_floating_point_v<T>) {
+        usable = usable && std::isfinite(value) && value >= 0.0;  // times and errors
+    }
+    if (!usable) {
+        throw input_error(fmt::format("the reference {} says {} = '{}', which cannot be", path.string(), name,
+                                      printable(text)));
     }
     return value;
 }
@@ -81,7 +95,8 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
     if (const auto of = header.find(k_scene_hash); of != header.end() && of->second != scene_hash) {
         const auto scene = header.find(k_scene);
         throw input_error(fmt::format("the reference {} is of another scene or of another state of it: {}",
-                                      path.string(), scene == header.end() ? "unnamed" : scene->second));
+                                      path.string(),
+                                      scene == header.end() ? "unnamed" : printable(scene->second)));
     }
     if (const auto of = number<int>(header, k_frame, path); of && *of != frame) {
         throw input_error(
@@ -98,7 +113,7 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
     reference.noise_floor =
         number<double>(header, k_noise_floor, path).value_or(std::numeric_limits<double>::quiet_NaN());
     reference.seconds = number<double>(header, k_seconds, path).value_or(0.0);
-    reference.spp = number<int>(header, k_spp, path).value_or(0);
+    reference.spp = std::max(number<int>(header, k_spp, path).value_or(0), 0);
     return reference;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/reference.h"
 
-#include <fstream>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
+#include "evaluate/record_file.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
@@ -67,8 +70,7 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
         return std::nullopt;
     }
     try {
-        std::ifstream in(record);
-        const auto json = nlohmann::json::parse(in);
+        const auto json = read_record(record);
         const fs::path image = folder / json.at("image").get<fs::path>().filename();
         // A foreign picture or record under this name is no reference of ours.
         if (json.at("key") != text_of(key) || json.at("image_sha256") != sha256_of_file(image)) {
@@ -79,14 +81,20 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
         Reference reference;
         reference.frame = key.frame;
         reference.image = read_image(image);
-        reference.noise_floor = json.at("noise_floor_relmse");
-        reference.seconds = json.at("seconds");
-        reference.spp = json.at("spp");
-        reference.batches = json.at("batches");
+        reference.noise_floor = finite_number(json, "noise_floor_relmse");
+        reference.seconds = finite_number(json, "seconds");
+        reference.spp = whole_number(json, "spp", 2, std::numeric_limits<int>::max());
+        reference.batches = whole_number(json, "batches", 1, reference.spp / 2);
         reference.cached = true;
         if (reference.image.width != key.width || reference.image.height != key.height) {
             log::warning("a cached reference is rendered again: {} is {} x {}, not {} x {}", image.string(),
                          reference.image.width, reference.image.height, key.width, key.height);
+            return std::nullopt;
+        }
+        if (!std::all_of(reference.image.rgb.begin(), reference.image.rgb.end(),
+                         [](float value) { return std::isfinite(value); })) {
+            log::warning("a cached reference is rendered again: {} has values that are not numbers",
+                         image.string());
             return std::nullopt;
         }
         return reference;

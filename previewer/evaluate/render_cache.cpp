@@ -2,7 +2,6 @@
 #include "evaluate/render_cache.h"
 
 #include <ctime>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/chrono.h>
@@ -13,6 +12,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
+#include "evaluate/record_file.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
 
@@ -49,8 +49,7 @@ std::optional<CachedRender> RenderCache::load(const std::string& key) const {
     if (!fs::is_regular_file(record_file, ignored)) {
         return std::nullopt;
     }
-    std::ifstream in(record_file);
-    const auto record = nlohmann::json::parse(in, nullptr, false);
+    const auto record = read_record(record_file);
     try {
         if (const std::string fault = fault_of(record, key, image); !fault.empty()) {
             log::warning("{} is made again: {}", image.string(), fault);
@@ -66,12 +65,12 @@ std::optional<CachedRender> RenderCache::load(const std::string& key) const {
                          render.image.height, width_, height_);
             return std::nullopt;
         }
-        render.seconds = record.at("seconds");
-        render.setup_seconds = record.at("setup_seconds");
-        render.startup_seconds = record.at("startup_seconds");
-        render.first_render_seconds = record.at("first_render_seconds");
-        render.export_seconds = record.at("export_seconds");
-        render.rss_peak_bytes = record.at("rss_peak_bytes");
+        render.seconds = finite_number(record, "seconds");
+        render.setup_seconds = finite_number(record, "setup_seconds");
+        render.startup_seconds = finite_number(record, "startup_seconds");
+        render.first_render_seconds = finite_number(record, "first_render_seconds");
+        render.export_seconds = finite_number(record, "export_seconds");
+        render.rss_peak_bytes = static_cast<size_t>(finite_number(record, "rss_peak_bytes"));
         render.date = record.at("date");
         render.notes = record.at("notes").get<std::vector<std::string>>();
         render.engine = record.at("engine");

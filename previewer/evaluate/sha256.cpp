@@ -94,8 +94,13 @@ std::string sha256_of_text(std::string_view text) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
+    // Anything but a file may have no end (/dev/zero) or no beginning (a pipe that nobody writes to).
+    std::error_code ignored;
+    std::ifstream in;
+    if (std::filesystem::is_regular_file(path, ignored)) {
+        in.open(path, std::ios::binary);
+    }
+    if (!in.is_open()) {
         throw input_error(fmt::format("cannot read {}: is it there and may it be read?", path.string()));
     }
     Sha256 hash;

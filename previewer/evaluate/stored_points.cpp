@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "core/log.h"
 #include "evaluate/cache.h"
 #include "evaluate/machine.h"
+#include "evaluate/record_file.h"
 #include "evaluate/sha256.h"
 
 namespace bounce {
@@ -87,8 +87,7 @@ void keep_point(const fs::path& folder, const PointKey& key, const PreviewResult
 }
 
 std::optional<PreviewResult> load_point(const fs::path& folder, const PointKey& key) {
-    std::ifstream in(record_path(folder, key));
-    const auto record = nlohmann::json::parse(in, nullptr, false);
+    const auto record = read_record(record_path(folder, key));
     if (!record.is_object() || !record.contains("schema") || record["schema"] != k_schema) {
         return std::nullopt;
     }
@@ -105,7 +104,7 @@ std::optional<PreviewResult> load_point(const fs::path& folder, const PointKey& 
                 return std::nullopt;
             }
         }
-        result.startup_seconds = record.at("startup_seconds");
+        result.startup_seconds = finite_number(record, "startup_seconds");
         return result;
     } catch (const nlohmann::json::exception& error) {
         log::debug("{}: {}; the point is measured again", point_name(key), error.what());

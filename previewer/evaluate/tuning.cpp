@@ -95,7 +95,8 @@ nlohmann::ordered_json tuning_json(const Tuning& tuning) {
 
 Tuning read_tuning(const std::filesystem::path& path) {
     std::ifstream in(path);
-    if (!in) {
+    std::error_code ignored;
+    if (!in || std::filesystem::is_directory(path, ignored)) {
         throw input_error(fmt::format("cannot read the tuning file {}", path.string()));
     }
     const auto json = nlohmann::json::parse(in, nullptr, false);

@@ -138,6 +138,7 @@ TEST_F(BaselineTest, OtherConditionsAreRefused) {
 
 TEST_F(BaselineTest, RefusesWhatItCannotUse) {
     EXPECT_THROW((void)read_baseline(folder_ / "missing.json"), Error);
+    EXPECT_THROW((void)read_baseline(folder_.path()), Error) << "a folder";
     EXPECT_THAT(refusal("{ half"), HasSubstr("not JSON"));
     EXPECT_THAT(refusal("{}"), HasSubstr("scene"));
     EXPECT_THAT(refusal("{\"schema\": \"bounce.baseline/2\"}"), HasSubstr("bounce.baseline/2"));

@@ -2,12 +2,17 @@
 #include "evaluate/cache.h"
 
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <random>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "environment.h"
 #include "evaluate/blender_export.h"
@@ -202,6 +207,108 @@ TEST(Reference, ADamagedFileIsRenderedAgain) {
     EXPECT_FALSE(load_reference(folder.path(), k_key));
 }
 
+// Each is whole JSON, and beside a right picture.
+TEST(Reference, AnImpossibleRecordIsRenderedAgain) {
+    const TemporaryFolder folder;
+    const fs::path record = folder / (cache_name(k_key) + ".json");
+    const auto store = [&] {
+        store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+    };
+    store();
+    ASSERT_TRUE(load_reference(folder.path(), k_key));
+    std::ifstream in(record);
+    const nlohmann::json right = nlohmann::json::parse(in);
+    const std::vector<std::pair<const char*, nlohmann::json>> wrong{{"noise_floor_relmse", nullptr},
+                                                                    {"noise_floor_relmse", -1.0},
+                                                                    {"noise_floor_relmse", "0"},
+                                                                    {"seconds", -1},
+                                                                    {"seconds", {1, 2}},
+                                                                    {"spp", -5},
+                                                                    {"spp", 0},
+                                                                    {"spp", 3.7},
+                                                                    {"spp", 1e30},
+                                                                    {"batches", -1},
+                                                                    {"batches", 33},
+                                                                    {"key", 3},
+                                                                    {"image_sha256", {1}},
+                                                                    {"image", ""},
+                                                                    {"image", "/"},
+                                                                    {"image", 7}};
+    for (const auto& [name, value] : wrong) {
+        nlohmann::json changed = right;
+        changed[name] = value;
+        write_text_file(record, changed.dump());
+        EXPECT_FALSE(load_reference(folder.path(), k_key)) << name << ' ' << value;
+    }
+    for (const char* text : {"", "[1]", "7", "{\"key\":", "\xff\xfe"}) {
+        write_text_file(record, text);
+        EXPECT_FALSE(load_reference(folder.path(), k_key)) << text;
+    }
+    store();
+    EXPECT_TRUE(load_reference(folder.path(), k_key));
+}
+
+// What the record names is looked for beside it alone.
+TEST(Reference, APictureElsewhereIsNotTaken) {
+    const TemporaryFolder folder;
+    const fs::path cache = folder / "cache";
+    store_reference(cache, k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+    const std::string image = cache_name(k_key) + "-64.exr";
+    fs::rename(cache / image, folder / image);
+    std::ifstream in(cache / (cache_name(k_key) + ".json"));
+    nlohmann::json record = nlohmann::json::parse(in);
+    for (const std::string& name : {"../" + image, (folder / image).string()}) {
+        record["image"] = name;
+        write_text_file(cache / (cache_name(k_key) + ".json"), record.dump());
+        EXPECT_FALSE(load_reference(cache, k_key)) << name;
+    }
+}
+
+// The hash is right, so that nothing but the picture itself tells.
+TEST(Reference, ADamagedPictureOfARightHashIsRenderedAgain) {
+    const TemporaryFolder folder;
+    const fs::path image = folder / (cache_name(k_key) + "-64.exr");
+    const fs::path record_file = folder / (cache_name(k_key) + ".json");
+    const auto with = [&](const std::function<void()>& spoil) {
+        store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+        spoil();
+        std::ifstream in(record_file);
+        nlohmann::json record = nlohmann::json::parse(in);
+        record["image_sha256"] = sha256_of_file(image);
+        write_text_file(record_file, record.dump());
+        return load_reference(folder.path(), k_key).has_value();
+    };
+    EXPECT_TRUE(with([] {})) << "this is what the test is about";
+    EXPECT_FALSE(with([&] { fs::resize_file(image, fs::file_size(image) - 30); }));
+    EXPECT_FALSE(with([&] { fs::resize_file(image, 0); }));
+    for (const float value :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        EXPECT_FALSE(with([&] { write_image(image, constant(value), {}, ExrValues::full); })) << value;
+    }
+}
+
+// Folders, pipes, devices and links without end in the place of each file. A pipe would be waited for.
+TEST(Reference, WhatIsNoFileIsRenderedAgain) {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<const char*, std::function<void(const fs::path&)>>> kinds{
+        {"a folder", [](const fs::path& path) { fs::create_directory(path); }},
+        {"a pipe", [](const fs::path& path) { ASSERT_EQ(mkfifo(path.c_str(), 0600), 0); }},
+        {"a device", [](const fs::path& path) { fs::create_symlink("/dev/zero", path); }},
+        {"a link to itself", [](const fs::path& path) { fs::create_symlink(path, path); }}};
+    for (const char* extension : {".json", ".files.json", "-64.exr"}) {
+        const fs::path path = folder / (cache_name(k_key) + extension);
+        for (const auto& [kind, make] : kinds) {
+            store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+            fs::remove(path);
+            make(path);
+            EXPECT_FALSE(load_reference(folder.path(), k_key)) << extension << ' ' << kind;
+            fs::remove(path);  // nothing is written in the place of a folder
+        }
+    }
+    store_reference(folder.path(), k_key, make_reference(constant(0.5F), constant(0.5F), 64), {});
+    EXPECT_TRUE(load_reference(folder.path(), k_key));
+}
+
 // Files of another reference under this one's name, and one of another size.
 TEST(Reference, AForeignFileIsRenderedAgain) {
     const TemporaryFolder folder;
@@ -280,8 +387,12 @@ TEST(ResolveScene, ExportsOncePerContent) {
     std::ofstream(folder / "a.blend") << "two";
     EXPECT_NE(resolve_scene(folder / "a.blend", options).gltf, first.gltf);
     std::ofstream(folder / "addon/export_cli.py") << "# another version\n";
-    (void)resolve_scene(folder / "a.blend", options);
+    const ResolvedScene third = resolve_scene(folder / "a.blend", options);
     EXPECT_EQ(runs(), 3);
+    std::ofstream(third.gltf) << "something else";
+    EXPECT_EQ(resolve_scene(folder / "a.blend", options).gltf, third.gltf);
+    EXPECT_EQ(runs(), 4) << "a foreign export is made again";
+    EXPECT_EQ(sha256_of_file(third.gltf), sha256_of_text("glb\n"));
 }
 
 TEST(ResolveScene, PassesOnWhyTheExportFailed) {

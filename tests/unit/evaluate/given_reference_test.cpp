@@ -77,7 +77,19 @@ TEST(GivenReference, ADamagedOneIsRefused) {
     test::write_constant(folder / "nan.exr", std::numeric_limits<float>::quiet_NaN(), 4, 2);
     EXPECT_THAT(refusal((folder / "nan.exr").string(), 1, 4, 2, 1), HasSubstr("not numbers"));
     write_image(folder / "odd.exr", Image(4, 2), {{"bounce:frame", "one"}});
-    EXPECT_THAT(refusal((folder / "odd.exr").string(), 1, 4, 2, 1), HasSubstr("'one', which is no number"));
+    EXPECT_THAT(refusal((folder / "odd.exr").string(), 1, 4, 2, 1), HasSubstr("'one', which cannot be"));
+    for (const char* value : {"nan", "-1", "inf", "1e999", "0x1", "\x1b[31m\n"}) {
+        write_image(folder / "odd.exr", Image(4, 2), {{"bounce:noise_floor_relmse", value}});
+        const std::string sentence = refusal((folder / "odd.exr").string(), 1, 4, 2, 1);
+        EXPECT_THAT(sentence, HasSubstr("which cannot be")) << value;
+        EXPECT_EQ(sentence.find_first_of("\x1b\n"), std::string::npos) << "one line, whatever a header says";
+    }
+    test::write_constant(folder / "cut.exr", 0.5F, 4, 2);
+    std::filesystem::resize_file(folder / "cut.exr", std::filesystem::file_size(folder / "cut.exr") - 20);
+    EXPECT_THAT(refusal((folder / "cut.exr").string(), 1, 4, 2, 1), HasSubstr("cut.exr"));
+    EXPECT_THAT(refusal(folder.path().string(), 1, 4, 2, 1), HasSubstr("it is not a file"));
+    std::filesystem::create_symlink("/dev/zero", folder / "device.exr");
+    EXPECT_THAT(refusal((folder / "device.exr").string(), 1, 4, 2, 1), HasSubstr("it is not a file"));
 }
 
 }  // namespace

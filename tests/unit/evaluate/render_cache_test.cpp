@@ -5,7 +5,10 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
@@ -78,6 +81,38 @@ TEST_F(RenderCacheTest, AForeignEntryIsMadeAgain) {
     cache_.store("mine", example(0.3F), {});
     fs::copy_file(file("foreign", ".exr"), file("mine", ".exr"), fs::copy_options::overwrite_existing);
     EXPECT_FALSE(cache_.load("mine")) << "another picture beside a right record";
+}
+
+TEST_F(RenderCacheTest, AnImpossibleRecordIsMadeAgain) {
+    cache_.store("key", example(), {});
+    std::ifstream in(file("key", ".json"));
+    const nlohmann::json right = nlohmann::json::parse(in);
+    const std::vector<std::pair<const char*, nlohmann::json>> wrong{
+        {"seconds", -1},       {"seconds", nullptr}, {"setup_seconds", "1"}, {"rss_peak_bytes", -1},
+        {"notes", {{"a", 1}}}, {"date", 3},          {"image_sha256", {1}}};
+    for (const auto& [name, value] : wrong) {
+        nlohmann::json changed = right;
+        changed[name] = value;
+        write_text_file(file("key", ".json"), changed.dump());
+        EXPECT_FALSE(cache_.load("key")) << name << ' ' << value;
+    }
+}
+
+TEST_F(RenderCacheTest, WhatIsNoFileIsMadeAgain) {
+    for (const char* extension : {".json", ".files.json", ".exr"}) {
+        for (const bool pipe : {false, true}) {
+            cache_.store("key", example(), {});
+            fs::remove(file("key", extension));
+            if (pipe) {
+                ASSERT_EQ(mkfifo(file("key", extension).c_str(), 0600), 0);
+            } else {
+                fs::create_directory(file("key", extension));
+            }
+            EXPECT_FALSE(cache_.load("key")) << extension;
+        }
+    }
+    cache_.store("key", example(), {});
+    EXPECT_TRUE(cache_.load("key"));
 }
 
 TEST_F(RenderCacheTest, AnotherSizeIsMadeAgain) {
