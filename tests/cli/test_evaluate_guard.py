@@ -2,10 +2,12 @@
 """The regression guard: the renderer's errors against stored references have not risen, and a renderer that is broken on
 purpose is caught. An evaluation repeats its errors to the bit; a killed one goes on. Scenes, references and baselines are
 those of scripts/guard."""
+import concurrent.futures
 import importlib.machinery
 import importlib.util
 import json
 import math
+import os
 import shutil
 import subprocess
 
@@ -35,11 +37,41 @@ def guard(bounce, tmp_path):
     return run
 
 
+def with_doubled_light(folder):
+    """A copy of the shaders with a defect."""
+    shutil.copytree(ROOT / "shaders", folder)
+    for name, old, new in script("broken_renderer").DOUBLED_LIGHT:
+        text = (folder / name).read_text()
+        assert text.count(old) == 1, f"{name}: the defect has to be written anew"
+        (folder / name).write_text(text.replace(old, new))
+    return folder
+
+
 @pytest.fixture(scope="module")
-def evaluated(tmp_path_factory):
-    """What the guard's evaluation of SCENE leaves, made once: each test that changes it takes a copy."""
-    folder = tmp_path_factory.mktemp("evaluated") / "out"
-    subprocess.run(GUARD.command(SCENE, folder), check=True, capture_output=True, timeout=120)
+def evaluations(tmp_path_factory):
+    """All evaluations that draw every point, each made once and as many at a time as there are processors: what takes long is to
+    start the processes, one a point, and that one processor does alone. By name: where it lies and the finished process, to be waited
+    for."""
+    folder = tmp_path_factory.mktemp("evaluations")
+    repeated = GUARD.command(SCENE, folder / "repeated")
+    repeated[repeated.index("--repeat") + 1] = "3"
+    commands = {scene: (GUARD.command(scene, folder / scene, "--baseline", GUARD.DATA / f"{scene}.json"), {}) for scene in GUARD.SCENES}
+    commands["repeated"] = (repeated, {})
+    commands["doubled"] = (GUARD.command(SCENE, folder / "doubled", "--baseline", GUARD.DATA / f"{SCENE}.json"),
+                           {"BOUNCE_SHADER_DIR": str(with_doubled_light(folder / "shaders"))})
+
+    def finished(command, environment):
+        return subprocess.run(command, env={**os.environ, **environment}, capture_output=True, text=True, timeout=240, check=False)
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        yield {name: (folder / name, pool.submit(finished, *command)) for name, command in commands.items()}
+
+
+@pytest.fixture
+def evaluated(evaluations):
+    """What the guard's evaluation of SCENE leaves; a test that changes it takes a copy."""
+    folder, process = evaluations[SCENE]
+    assert process.result().returncode == 0, process.result().stderr
     return folder
 
 
@@ -52,8 +84,8 @@ def points(folder):
 
 
 @pytest.mark.parametrize("scene", GUARD.SCENES)
-def test_no_error_has_risen(guard, scene):
-    result = guard(scene, "out", "--baseline", GUARD.DATA / f"{scene}.json")
+def test_no_error_has_risen(evaluations, scene):
+    result = evaluations[scene][1].result()
     assert result.returncode == 0, result.stderr
     assert "7 points compared, 0 errors have risen" in result.stdout
     # The reference's noise is in the errors of both, so its size does not matter here.
@@ -62,19 +94,14 @@ def test_no_error_has_risen(guard, scene):
         assert word not in told, told
 
 
-def test_doubled_light_is_caught(guard, tmp_path):
-    shaders = tmp_path / "shaders"
-    shutil.copytree(ROOT / "shaders", shaders)
-    for name, old, new in script("broken_renderer").DOUBLED_LIGHT:
-        text = (shaders / name).read_text()
-        assert text.count(old) == 1, f"{name}: the defect has to be written anew"
-        (shaders / name).write_text(text.replace(old, new))
-    result = guard(SCENE, "out", "--baseline", GUARD.DATA / f"{SCENE}.json", environment={"BOUNCE_SHADER_DIR": str(shaders)})
+def test_doubled_light_is_caught(evaluations):
+    folder, process = evaluations["doubled"]
+    result = process.result()
     assert result.returncode == 5, (result.returncode, result.stderr)
     risen = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
     assert any(line.startswith("error: Guard, disks: relmse is ") for line in risen), risen
     assert any(line.startswith("error: Guard, disks: bias is ") for line in risen), risen
-    assert (tmp_path / "out" / "results.json").exists(), "the report is written all the same"
+    assert (folder / "results.json").exists(), "the report is written all the same"
 
 
 def test_a_missing_point_is_named(guard, evaluated, tmp_path):
@@ -89,13 +116,12 @@ def test_a_missing_point_is_named(guard, evaluated, tmp_path):
     assert "Guard, direct: the run has this point, the baseline has not" in result.stderr
 
 
-def test_the_same_evaluation_twice(tmp_path, capsys):
-    """Errors are the same to the bit. Whether times lie within the spread that the first run printed is reported."""
-    for name in ("first", "second"):
-        command = GUARD.command(SCENE, tmp_path / name)
-        command[command.index("--repeat") + 1] = "3"
-        subprocess.run(command, check=True, capture_output=True, timeout=120)
-    first, second = points(tmp_path / "first"), points(tmp_path / "second")
+def test_the_same_evaluation_twice(evaluations, evaluated, capsys):
+    """Errors are the same to the bit, also where frames are drawn repeatedly. Whether times lie within the spread that the run
+    with repeats printed is reported."""
+    repeated, process = evaluations["repeated"]
+    assert process.result().returncode == 0, process.result().stderr
+    first, second = points(repeated), points(evaluated)
     assert first.keys() == second.keys() and len(first) == 7
     within = 0
     for key, point in first.items():
@@ -107,7 +133,7 @@ def test_the_same_evaluation_twice(tmp_path, capsys):
         assert point["seconds_least"] <= point["seconds"] <= point["seconds_most"]
         within += point["seconds_least"] <= second[key]["seconds"] <= point["seconds_most"]
     with capsys.disabled():
-        print(f"\n{within} of {len(first)} times of the second run lie within the first one's spread")
+        print(f"\n{within} of {len(first)} times of the run without repeats lie within the other's spread")
 
 
 def test_resume_takes_what_is_there(guard, evaluated, tmp_path):
