@@ -24,18 +24,30 @@ Progress::~Progress() {
 
 void Progress::step(std::string_view note) {
     ++done_;
+    print(note);
+}
+
+void Progress::found(std::string_view note) {
+    ++done_;
+    ++found_;
+    print(note);
+}
+
+void Progress::print(std::string_view note) const {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double left = elapsed / done_ * (total_ - done_);
+    const int timed = done_ - found_;
+    const std::string left = timed > 0 && done_ < total_
+                                 ? fmt::format("{} left", rough_time(elapsed / timed * (total_ - done_)))
+                                 : "";
     if (!terminal_) {
-        fmt::print(stderr, "{} {}/{}: {}{}\n", title_, done_, total_, note,
-                   done_ < total_ ? fmt::format("; {} left", rough_time(left)) : "");
+        fmt::print(stderr, "{} {}/{}: {}{}\n", title_, done_, total_, note, left.empty() ? "" : "; " + left);
         return;
     }
     constexpr int width = 24;
     const int filled = std::clamp(width * done_ / total_, 0, width);
     // \x1b[K clears what a longer line before left behind.
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}, {} left\x1b[K", title_, "", filled, "",
-               width - filled, done_, total_, note, rough_time(left));
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}{}{}\x1b[K", title_, "", filled, "", width - filled,
+               done_, total_, note, left.empty() ? "" : ", ", left);
     std::fflush(stderr);
 }
 

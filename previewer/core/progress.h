@@ -20,11 +20,16 @@ class Progress {
 
     // One step is done; note says which ("frame 12, 41 ms").
     void step(std::string_view note);
+    // One step was done by an earlier run: it says nothing of how long the others take.
+    void found(std::string_view note);
 
   private:
+    void print(std::string_view note) const;
+
     std::string title_;
     int total_;
     int done_ = 0;
+    int found_ = 0;  // of these, by an earlier run
     bool terminal_;
     std::chrono::steady_clock::time_point start_;
 };

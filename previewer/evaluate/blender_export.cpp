@@ -164,6 +164,13 @@ ResolvedScene resolve_scene(const fs::path& scene, const SceneSourceOptions& opt
         log::debug("{} was exported before: {}", scene.string(), target.string());
         return {target, scene, recorded_seconds(record)};
     }
+    if (fs::exists(target, ignored)) {
+        log::warning(
+            "{} is exported again: {} is not what its record tells of, or a file that the scene refers to "
+            "has "
+            "changed",
+            scene.string(), target.string());
+    }
     export_blend(scene, blender, addon, target, record);
     return {target, scene, recorded_seconds(record)};
 }

@@ -3,6 +3,7 @@
 // Error against run time as plain data, and what follows from it. No files, no processes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -21,6 +22,12 @@ struct FrameError {
     double ssim = 0.0;
     double psnr_db = 0.0;
     double bias = 0.0;
+    double nrmse = 0.0;
+    double smape = 0.0;
+    std::array<double, 3> bias_rgb{};
+    double max_abs = 0.0;  // the worst pixel's, and where it is from the top left
+    int max_x = 0;
+    int max_y = 0;
     size_t not_finite = 0;
     // Fastest and slowest of the repeated renders; NaN where only one time is known.
     double seconds_least = std::numeric_limits<double>::quiet_NaN();
@@ -77,8 +84,9 @@ struct EqualError {
 };
 
 // The time at which the ladder (seconds, error; any order) reaches the error, by straight lines between
-// the logarithms. Nothing where the ladder has fewer than two usable points, where the error is not
-// positive, or where the ladder does not get better with time.
+// the logarithms of the points on its own Pareto front. Beyond the last of them the last segment goes on, but
+// not flatter than error times time is constant. Nothing where the ladder has fewer than two usable points,
+// where the error is not positive, or where the ladder does not get better with time.
 [[nodiscard]] std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> ladder,
                                                       double error);
 

@@ -120,4 +120,14 @@ CyclesReport run_cycles_cached(
     return report;
 }
 
+void tell_cycles(Progress& progress, const CyclesRender& render, const std::string& more) {
+    const std::string note =
+        fmt::format("frame {}, {} spp{}: {:.2f} s", render.frame, render.spp, more, render.seconds);
+    if (render.measured.empty()) {
+        progress.step(note);
+    } else {
+        progress.found(note + " (from an earlier run)");
+    }
+}
+
 }  // namespace bounce

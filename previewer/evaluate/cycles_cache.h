@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/progress.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/render_cache.h"
 
@@ -22,5 +23,9 @@ using CyclesKey = std::function<std::string(const CyclesRender&)>;
     const CyclesJob& job, const std::filesystem::path& blender, const RenderCache& cache,
     const CyclesKey& key, bool fresh,
     const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});
+
+// A step of the progress: "frame 1, 64 spp: 7.60 s", what was rendered by an earlier run as such. more:
+// stands behind the samples.
+void tell_cycles(Progress& progress, const CyclesRender& render, const std::string& more);
 
 }  // namespace bounce

@@ -51,8 +51,8 @@ def match_eevee(scene):
 def expected_seconds(known, samples):
     """A frame costs a part that is always the same and one that grows with the samples: a line through the two
     renders with the most samples."""
-    if len(known) < 2:
-        return 0.0
+    if len(known) < 2 or samples <= min(known):
+        return min(known.values())  # fewer samples take no longer
     (fewer, short), (more, long) = sorted(known.items())[-2:]
     return long + max(long - short, 0.0) / (more - fewer) * (samples - more)
 

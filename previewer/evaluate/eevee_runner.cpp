@@ -132,7 +132,7 @@ class EeveeRun {
             if (skipped_.insert(samples).second) {
                 result_.left_out.push_back(
                     fmt::format("Eevee at {} samples is left out: a frame would take about {:.0f} s; "
-                                "--peer-limit allows {:.0f} s",
+                                "--peer-limit allows {:g} s",
                                 samples, event.at("expected_seconds").get<double>(), job_.limit_seconds));
             }
         } else if (kind == "note") {

@@ -51,6 +51,12 @@ FrameError measure(int frame, double seconds, const Image& image, const Image& r
     error.ssim = metrics.ssim;
     error.psnr_db = metrics.psnr_db;
     error.bias = metrics.bias;
+    error.nrmse = metrics.nrmse;
+    error.smape = metrics.smape;
+    error.bias_rgb = metrics.bias_rgb;
+    error.max_abs = metrics.max_abs;
+    error.max_x = metrics.max_abs_x;
+    error.max_y = metrics.max_abs_y;
     error.not_finite = metrics.nan + metrics.inf;
     return error;
 }
@@ -162,11 +168,7 @@ class Evaluator {
         result_.cycles = run_cycles_cached(
             job, blender_, render_cache_, [&](const CyclesRender& render) { return cycles_key(render); },
             options_.fresh,
-            [&](const CyclesRender& render, const CyclesReport&) {
-                progress.step(fmt::format("frame {}, {} spp: {:.2f} s{}", render.frame, render.spp,
-                                          render.seconds,
-                                          render.measured.empty() ? "" : " (from an earlier run)"));
-            });
+            [&](const CyclesRender& render, const CyclesReport&) { tell_cycles(progress, render, ""); });
     }
 
     [[nodiscard]] std::string cycles_key(const CyclesRender& render) const {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/log.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -109,6 +110,12 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
     if (!std::all_of(reference.image.rgb.begin(), reference.image.rgb.end(),
                      [](float value) { return std::isfinite(value); })) {
         throw input_error(fmt::format("the reference {} has values that are not numbers", path.string()));
+    }
+    if (!header.contains(k_scene_hash) && !header.contains(k_frame) && !header.contains(k_bounces)) {
+        log::warning(
+            "the reference {} does not say of which scene, frame and bounces it is; it is taken for the "
+            "right one",
+            path.string());
     }
     reference.noise_floor =
         number<double>(header, k_noise_floor, path).value_or(std::numeric_limits<double>::quiet_NaN());

@@ -66,7 +66,14 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
     const fs::path record = folder / (name + ".json");
     const fs::path files = folder / (name + ".files.json");
     std::error_code ignored;
-    if (!fs::is_regular_file(record, ignored) || !files_unchanged(files)) {
+    if (!fs::exists(record, ignored)) {
+        return std::nullopt;
+    }
+    if (!files_unchanged(files)) {
+        log::warning(
+            "a cached reference is rendered again: a file that the scene refers to has changed, or {} is "
+            "damaged",
+            files.string());
         return std::nullopt;
     }
     try {

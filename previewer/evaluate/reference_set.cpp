@@ -103,9 +103,7 @@ CyclesReport ReferenceSet::render(const std::vector<Batch>& batches) {
     Progress progress("reference", static_cast<int>(job.renders.size()));
     std::vector<CyclesRender> done;
     const auto on_render = [&](const CyclesRender& render, const CyclesReport& so_far) {
-        progress.step(fmt::format("Cycles, frame {}, {} spp, seed {}: {:.2f} s{}", render.frame, render.spp,
-                                  render.seed, render.seconds,
-                                  render.measured.empty() ? "" : " (from an earlier run)"));
+        tell_cycles(progress, render, fmt::format(", seed {}", render.seed));
         done.push_back(render);
         for (const Batch& batch : batches) {
             const auto half_of = [&](int seed) {

@@ -101,17 +101,23 @@ ordered_json reference_json(const Evaluation& evaluation) {
 ordered_json point_json(const CurvePoint& point) {
     ordered_json frames = ordered_json::array();
     for (const FrameError& frame : point.frames) {
-        frames.push_back({{"frame", frame.frame},
-                          {"seconds", number(frame.seconds)},
-                          {"seconds_least", number(frame.seconds_least)},
-                          {"seconds_most", number(frame.seconds_most)},
-                          {"relmse", number(frame.relmse)},
-                          {"relmse_exposed", number(frame.relmse_exposed)},
-                          {"flip_ldr", number(frame.flip_ldr)},
-                          {"ssim", number(frame.ssim)},
-                          {"psnr_db", number(frame.psnr_db)},
-                          {"bias", number(frame.bias)},
-                          {"not_finite", frame.not_finite}});
+        frames.push_back(
+            {{"frame", frame.frame},
+             {"seconds", number(frame.seconds)},
+             {"seconds_least", number(frame.seconds_least)},
+             {"seconds_most", number(frame.seconds_most)},
+             {"relmse", number(frame.relmse)},
+             {"relmse_exposed", number(frame.relmse_exposed)},
+             {"flip_ldr", number(frame.flip_ldr)},
+             {"ssim", number(frame.ssim)},
+             {"psnr_db", number(frame.psnr_db)},
+             {"bias", number(frame.bias)},
+             {"nrmse", number(frame.nrmse)},
+             {"smape", number(frame.smape)},
+             {"bias_rgb", {number(frame.bias_rgb[0]), number(frame.bias_rgb[1]), number(frame.bias_rgb[2])}},
+             {"max_abs", number(frame.max_abs)},
+             {"max_abs_pixel", {frame.max_x, frame.max_y}},
+             {"not_finite", frame.not_finite}});
     }
     return {{"label", point.label},
             {"seconds", number(point.seconds)},

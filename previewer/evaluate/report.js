@@ -123,11 +123,17 @@ const report = (() => {
       (headroom < 10 ? ", and a longer reference would be needed to tell small ones apart" : "")));
 
   // ---- table of all points ----
+  const timeOf = (point) => {
+    const cell = document.createDocumentFragment();
+    cell.append(`${time(point.seconds)}${point.measured ? " †" : ""}`);
+    if (point.seconds_least !== null) element("small", spread(point), cell);
+    return cell;
+  };
   const fillPoints = () => {
     const table = byId("points");
     table.replaceChildren();
     const head = table.createTHead().insertRow();
-    for (const text of ["curve", "point", "time a frame", "spread", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio",
+    for (const text of ["curve", "point", "time a frame", "relMSE", "FLIP", "bias", "Cycles at equal error", "ratio",
       "process", "OpenGL"]) {
       element("th", text, head);
     }
@@ -144,10 +150,10 @@ const report = (() => {
         const speedup = speedupOf(curve.name, point.label);
         const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
           : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
-        for (const text of [point.label, `${time(point.seconds)}${point.measured ? " †" : ""}`, spread(point), scientific(point.relmse),
+        for (const text of [point.label, timeOf(point), scientific(point.relmse),
           digits(point.flip_ldr, 3), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
           bytes(point.rss_peak_bytes), bytes(point.gl_peak_bytes)]) {
-          row.insertCell().textContent = text;
+          row.insertCell().append(text);
         }
       }
     }
@@ -159,6 +165,11 @@ const report = (() => {
     "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
   if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
     remarks.push("* Beyond Cycles' last point, along its last segment.");
+  }
+  const exact = all.filter((point) => point.relmse === 0).length;
+  if (exact) {
+    remarks.push(`${exact === 1 ? "One point has" : `${exact} points have`} error 0, which has no place on a logarithmic axis, ` +
+      "and so on the chart.");
   }
   const dates = [...new Set(all.filter((point) => point.measured).map((point) => point.measured.slice(0, 10)))];
   if (dates.length) remarks.push(`† Measured on this machine by an earlier run (${dates.join(", ")}), not in this one.`);

@@ -49,11 +49,15 @@ class HighTransform {
         }
         mean /= static_cast<double>(count_);
         TemporalEnergy energy;
+        double constant = 0.0;
         for (size_t t = 0; t < count_; ++t) {
             signal[t] = (signal[t] - mean) * window_[t];
             energy.total += signal[t] * signal[t];
+            constant += signal[t];
         }
-        energy.total *= scale_;
+        // Without frequency 0, which the window has made of the others.
+        energy.total -= constant * constant / static_cast<double>(count_);
+        energy.total = scale_ * std::max(energy.total, 0.0);
         for (size_t row = 0; row < weight_.size(); ++row) {
             double real = 0.0;
             double imaginary = 0.0;

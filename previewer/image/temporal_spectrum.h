@@ -20,9 +20,10 @@ struct TemporalEnergy {
 };
 
 // By a discrete Fourier transform of the signal less its mean, under a Hann window; by Parseval's theorem
-// `total` is the window-weighted mean square. Slow changes, ramps included, stay out of `high`: the window's
-// leakage falls with the sixth power of the frequency. A signal that alternates between +a and -a gives
-// a^2 for both. Needs k_least_spectrum_frames values (asserted).
+// `total` is the window-weighted mean square less what the window makes of it at frequency 0. Slow changes,
+// ramps included, stay out of `high`: the window's leakage falls with the sixth power of the frequency. A
+// signal that alternates between +a and -a gives a^2 for both. Needs k_least_spectrum_frames values
+// (asserted).
 //   Harris, 1978, "On the use of windows for harmonic analysis with the discrete Fourier transform".
 [[nodiscard]] TemporalEnergy temporal_energy(const std::vector<double>& signal);
 

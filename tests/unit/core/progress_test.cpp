@@ -18,6 +18,16 @@ TEST(ProgressTest, OneLineAStepAwayFromATerminal) {
               "Rendering 1/2: frame 1; 0 s left\nRendering 2/2: frame 2\n");
 }
 
+TEST(ProgressTest, WhatWasThereAlreadySaysNothingOfTheTimeLeft) {
+    testing::internal::CaptureStderr();
+    {
+        Progress progress("Rendering", 3);
+        progress.found("a");
+        progress.step("b");
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "Rendering 1/3: a\nRendering 2/3: b; 0 s left\n");
+}
+
 TEST(RoughTime, IsForPeople) {
     EXPECT_EQ(rough_time(0.2), "0 s");
     EXPECT_EQ(rough_time(89), "89 s");

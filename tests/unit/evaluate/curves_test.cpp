@@ -70,6 +70,26 @@ TEST(TimeAtError, ExtrapolatesAlongTheLastSegment) {
     EXPECT_EQ(beyond->kind, EqualErrorKind::extrapolated);
 }
 
+// A firefly in the second point: the others say what they would without it.
+TEST(TimeAtError, PointsThatAFasterOneBeatsDoNotCount) {
+    const auto plain = time_at_error({{1.0, 0.1}, {10.0, 0.01}}, 0.05);
+    const auto noisy = time_at_error({{1.0, 0.1}, {4.0, 2.4}, {10.0, 0.01}}, 0.05);
+    ASSERT_TRUE(plain && noisy);
+    EXPECT_EQ(noisy->seconds, plain->seconds);
+    EXPECT_TRUE(time_at_error({{1.0, 0.1}, {4.0, 0.02}, {10.0, 2.4}}, 0.01)) << "the last one is";
+}
+
+TEST(TimeAtError, NothingIsExtrapolatedFlatterThanNoiseFalls) {
+    // Ten times the time for half the error; then as one over the time: 0.05 at 10 s is 0.005 at 100 s.
+    const auto flat = time_at_error({{1.0, 0.1}, {10.0, 0.05}}, 0.005);
+    ASSERT_TRUE(flat);
+    EXPECT_NEAR(flat->seconds, 100.0, 1e-6);
+    // Steeper is followed: a hundredth of the error in ten times the time.
+    const auto steep = time_at_error({{1.0, 0.1}, {10.0, 0.001}}, 0.00001);
+    ASSERT_TRUE(steep);
+    EXPECT_NEAR(steep->seconds, 100.0, 1e-6);
+}
+
 TEST(TimeAtError, TheFastestPointBoundsFromBelow) {
     const auto coarse = time_at_error(k_ladder, 0.5);
     ASSERT_TRUE(coarse);

@@ -66,7 +66,9 @@ TEST(GivenReference, OfAnotherSceneIsRefused) {
 TEST(GivenReference, OfAnotherProgramHasNoHeader) {
     const TemporaryFolder folder;
     test::write_constant(folder / "a.exr", 0.5F, 4, 2);
+    testing::internal::CaptureStderr();
     const Reference read = load_given_reference((folder / "a.exr").string(), 7, 4, 2, 1, "hash");
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("does not say of which scene"));
     EXPECT_EQ(read.frame, 7);
     EXPECT_TRUE(std::isnan(read.noise_floor));
     EXPECT_EQ(read.spp, 0);

@@ -51,6 +51,9 @@ TEST(TemporalSpectrum, CosinesByHand) {
     EXPECT_NEAR(energy(6).high, 0.5, 1e-12);
     EXPECT_NEAR(energy(6).total, 0.5, 1e-12);
     EXPECT_NEAR(energy(4).high, 0.5 / 6.0, 1e-12);
+    // Of 1 frequency 0 gets a part, which does not count: at +-1 amplitudes of 1/4, at +-2 of 1/8, over the
+    // window's mean square of 3/8.
+    EXPECT_NEAR(energy(1).total, (2.0 / 16.0 + 2.0 / 64.0) / (3.0 / 8.0), 1e-12);
 }
 
 TEST(TemporalSpectrum, WhatStandsStillHasNothing) {
