@@ -77,7 +77,9 @@ class Evaluator {
         references_.emplace(reference_source(), cache_folder() / "references", render_cache_,
                             [this](const CyclesRender& render) { return cycles_key(render); });
         if (references_->lacks_any()) {
-            require_draco_library(options.scene, blender_);  // before Bounce's own points take their minutes
+            // Before Bounce's own points take their minutes.
+            require_camera_and_light(options.scene);
+            require_draco_library(options.scene, blender_);
         }
     }
 

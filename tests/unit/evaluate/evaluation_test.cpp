@@ -232,7 +232,8 @@ TEST_F(EvaluateTest, CyclesFailureIsASentence) {
 
 TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
     const Environment none("BLENDER_EXTERN_DRACO_LIBRARY_PATH", "");
-    std::ofstream(folder_ / "scene.glb") << R"({"extensionsUsed": ["KHR_draco_mesh_compression"]})";
+    std::ofstream(folder_ / "scene.glb") << R"({"nodes": [{"camera": 0}],
+        "extensionsUsed": ["KHR_draco_mesh_compression", "BOUNCE_scene"]})";
     try {
         (void)evaluate(options_);
         FAIL() << "evaluated";
