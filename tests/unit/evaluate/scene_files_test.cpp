@@ -36,9 +36,11 @@ TEST(RequireCameraAndLight, SaysWhatBlenderWouldLack) {
 }
 
 TEST(RequireCameraAndLight, TakesWhatBothCanShow) {
-    EXPECT_EQ(refusal(R"({"nodes": [{"camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}]})"), "");
+    EXPECT_EQ(refusal(R"({"nodes": [{"camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}]})"),
+              "");
     EXPECT_EQ(refusal(R"({"nodes": [{"camera": 0}], "extensionsUsed": ["BOUNCE_scene"]})"), "");
-    EXPECT_EQ(refusal(R"({"nodes": [{"camera": 0}], "extensionsUsed": ["KHR_materials_emissive_strength"]})"), "");
+    EXPECT_EQ(refusal(R"({"nodes": [{"camera": 0}], "extensionsUsed": ["KHR_materials_emissive_strength"]})"),
+              "");
     EXPECT_EQ(refusal("no glTF"), "") << "the loader says so";
 }
 
