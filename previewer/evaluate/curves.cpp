@@ -79,32 +79,31 @@ std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> l
                  std::isfinite(point.second));
     });
     if (ladder.size() < 2 || !(error > 0.0) || !std::isfinite(error)) {
-        return std::nullopt;
+        return std::nullopt;  // one point is no ladder, not even as a bound
     }
     // Of a noisy picture a single pixel can outweigh all others: points that a faster one beats say nothing.
     const std::vector<bool> front = pareto_front(ladder);
     size_t at = 0;
     std::erase_if(ladder, [&](const auto&) { return !front[at++]; });
     std::sort(ladder.begin(), ladder.end());
+    ladder.erase(std::unique(ladder.begin(), ladder.end()), ladder.end());
+    // From here on each point is slower and more exact than the one before.
     if (ladder.front().second <= error) {
         return EqualError{ladder.front().first, EqualErrorKind::fastest_point};
+    }
+    if (ladder.size() < 2) {
+        return std::nullopt;
     }
     const auto after = std::find_if(ladder.begin() + 1, ladder.end(),
                                     [&](const auto& point) { return point.second <= error; });
     const bool beyond = after == ladder.end();
-    if (ladder.size() < 2) {
-        return std::nullopt;
-    }
     const auto& [t1, e1] = beyond ? *(ladder.end() - 1) : *after;
     const auto& [t0, e0] = beyond ? *(ladder.end() - 2) : *(after - 1);
-    if (!(e1 < e0) || !(t1 > t0)) {
-        return std::nullopt;
-    }
     if (beyond) {
         // Noise falls as one over the samples. Where the last segment is flatter than that, by set-up time or
         // by chance, following it would flatter whatever is compared.
-        const double slope = std::max(std::log(t1 / t0) / std::log(e0 / e1), 0.0);
-        return EqualError{t1 * std::pow(e1 / error, std::min(slope, 1.0)), EqualErrorKind::extrapolated};
+        const double exponent = std::min(std::log(t1 / t0) / std::log(e0 / e1), 1.0);
+        return EqualError{t1 * std::pow(e1 / error, exponent), EqualErrorKind::extrapolated};
     }
     const double along = std::log(error / e0) / std::log(e1 / e0);
     return EqualError{t0 * std::pow(t1 / t0, along), EqualErrorKind::interpolated};

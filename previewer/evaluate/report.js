@@ -164,7 +164,7 @@ const report = (() => {
   const remarks = ["Process: the largest resident memory. Of Cycles and Eevee it is Blender's, up to that point. " +
     "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
   if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
-    remarks.push("* Beyond Cycles' last point, along its last segment.");
+    remarks.push("* Beyond Cycles' last point, along its last segment, but not flatter than noise falls.");
   }
   const exact = all.filter((point) => point.relmse === 0).length;
   if (exact) {

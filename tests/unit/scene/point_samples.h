@@ -61,6 +61,16 @@ inline std::vector<bool> none_on_hull(const SurfaceParts& parts) {
     return std::vector<bool>(parts.parts.size(), false);
 }
 
+// One right-angled triangle with legs of 1 m.
+inline Scene triangle_scene() {
+    Scene scene;
+    Primitive triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.indices = {0, 1, 2};
+    place_mesh(scene, add_mesh(scene, triangle));
+    return scene;
+}
+
 // Shapes of many sizes: soup, a box in two places and two scales, a floor.
 inline Scene mixed_scene() {
     Scene scene;

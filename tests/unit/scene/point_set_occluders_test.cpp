@@ -66,11 +66,7 @@ TEST(PointSet, SharesAddUpToTheArea) {
 }
 
 TEST(PointSet, EvenWithinATriangle) {
-    Scene scene;
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    p.indices = {0, 1, 2};
-    place_mesh(scene, add_mesh(scene, p));
+    const Scene scene = triangle_scene();
     const SurfaceParts parts = surface_parts(scene, k_all_animations);
     constexpr size_t count = 4096;
     const PointSet set = sample_points(parts, none_on_hull(parts), occluders(count, 64, false));

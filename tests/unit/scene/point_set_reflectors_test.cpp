@@ -49,11 +49,7 @@ TEST(PointSet, RunsOfReflectorsFollowOneCurve) {
 }
 
 TEST(PointSet, RowsOfReflectorsArePatchesOfALargeTriangle) {
-    Scene scene;
-    Primitive p;
-    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    p.indices = {0, 1, 2};
-    place_mesh(scene, add_mesh(scene, p));
+    const Scene scene = triangle_scene();
     const SurfaceParts parts = surface_parts(scene, k_all_animations);
     constexpr size_t rows = 128;
     constexpr size_t runs = 64;
