@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scripts share that run a job in Blender: opening the scene, its picture's settings, telling what happens.
 
-A job is `-- JOB.json` on the command line. What happens is told on stdout in lines "BOUNCE {json}"; of every script:
+A job is `-- JOB.json` on the command line, with the scene's path, for a glTF file `addon`, the add-on whose Draco library
+decodes it, and `defaults`, what Bounce shows where the file says nothing (scene_defaults.h). What happens is told on stdout in lines "BOUNCE {json}"; of every script:
 
     {event: "ready", files, ...}   the scene is open; files: what it refers to
     {event: "begin"}               a render starts
@@ -10,6 +11,7 @@ A job is `-- JOB.json` on the command line. What happens is told on stdout in li
 """
 
 import json
+import statistics
 import sys
 import time
 import traceback
@@ -32,7 +34,8 @@ def open_scene(job):
         sys.path.insert(0, str(Path(__file__).resolve().parent))
         import cycles_import_gltf
 
-        return cycles_import_gltf.load(job["scene"], job.get("addon"), lambda text: tell("note", message=text))
+        return cycles_import_gltf.load(job["scene"], job.get("addon"), job.get("defaults"),
+                                       lambda text: tell("note", message=text))
     if not bpy.data.filepath:
         raise SceneError("the .blend file could not be opened")
     return bpy.context.scene, None
@@ -92,6 +95,7 @@ def match_picture(scene, width, height):
 
 
 def timed_render():
+    """Seconds of one render of the frame that is set."""
     tell("begin")
     start = time.perf_counter()
     result = bpy.ops.render.render(write_still=False)
@@ -99,6 +103,12 @@ def timed_render():
     if "FINISHED" not in result:
         raise SceneError("the render did not finish")
     return seconds
+
+
+def repeated_renders(first, repeat):
+    """The seconds of several renders, `first` the one already there, as an event tells them: the median and all."""
+    times = [first] + [timed_render() for _ in range(repeat - 1)]
+    return {"seconds": statistics.median(times), "seconds_all": times}
 
 
 def peak_memory():

@@ -14,6 +14,7 @@
 #include "evaluate/draco_check.h"
 #include "evaluate/embedded.h"
 #include "evaluate/picture_room.h"
+#include "evaluate/scene_defaults.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -22,6 +23,14 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view k_event_prefix = "BOUNCE ";
+
+std::vector<int> frames_of(const json& description) {
+    std::vector<int> frames;
+    for (const json& item : description.at("frames")) {
+        frames.push_back(item.at("frame"));
+    }
+    return frames;
+}
 
 }  // namespace
 
@@ -34,6 +43,8 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
     if (!blend) {
         require_draco_library(script.scene, script.blender);
         description["addon"] = find_addon().string();  // its Draco library decodes the file
+        description["defaults"] = scene_defaults(script.scene, frames_of(description),
+                                                 description.at("width"), description.at("height"));
     }
     write_text_file(scratch / "blender_job.py", embedded::blender_job_py());
     write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());

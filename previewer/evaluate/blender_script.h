@@ -17,13 +17,13 @@
 
 namespace bounce {
 
-// description: has "width" and "height" beside what the script wants.
+// description: has "width", "height" and "frames", each with its "frame", beside what the script wants.
 struct BlenderScript {
     std::filesystem::path blender;
     std::filesystem::path scene;       // .blend is opened by Blender, anything else imported by the script
     std::string name;                  // of the script's file
     std::string_view text;             // of the script; what it imports (blender_job.py, ...) lies beside it
-    nlohmann::json description;        // of the job; "scene" and "addon" are filled in
+    nlohmann::json description;        // of the job; "scene", "addon" and "defaults" are filled in
     std::vector<std::string> display;  // what runs Blender where there is no display; may be empty
 };
 
@@ -36,7 +36,8 @@ struct BlenderEnd {
 
 // Calls on_event for each event that the script tells, with its kind, until one fails, and on_line for all
 // other lines. An event "error", an event that on_event cannot read (nlohmann::json::exception) and an Error
-// that on_event throws are the end's reason. Files are written to the scratch folder.
+// that on_event throws are the end's reason. Files are written to the scratch folder. Throws input_error
+// where the scene is a glTF file that cannot be read.
 [[nodiscard]] BlenderEnd run_blender_script(
     const BlenderScript& script, const ScratchFolder& scratch,
     const std::function<void(const std::string& kind, const nlohmann::json& event)>& on_event,

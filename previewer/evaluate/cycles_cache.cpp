@@ -63,6 +63,7 @@ CyclesReport run_cycles_cached(
             try {
                 set_engine(kept, *found);
                 render.seconds = found->seconds;
+                render.all_seconds = found->all_seconds;
                 render.setup_seconds = found->setup_seconds;
                 render.rss_peak_bytes = found->rss_peak_bytes;
                 render.measured = found->date;
@@ -91,6 +92,7 @@ CyclesReport run_cycles_cached(
                 return;
             }
             item.seconds = render.seconds;
+            item.all_seconds = render.all_seconds;
             item.setup_seconds = render.setup_seconds;
             item.startup_seconds = so_far.startup_seconds;
             item.first_render_seconds = so_far.first_render_seconds;

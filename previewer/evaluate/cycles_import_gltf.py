@@ -3,7 +3,8 @@
 
 Blender's importer brings meshes, nodes, skins and their animation; what only BOUNCE_scene says (docs/bounce_scene.md)
 is set from the file: lights, cameras, world, diffuse lobes, film and view. Values that move by KHR_animation_pointer
-are written into a copy of the file's document at each frame, and set from there like the ones that do not move.
+are written into a copy of the file's document at each frame, and set from there like the ones that do not move. Where
+the file has no camera or no light, Bounce's own ones are used: its renders and Blender's show the same.
 """
 
 import copy
@@ -14,6 +15,7 @@ import sys
 from pathlib import Path
 
 import bpy
+import mathutils
 import numpy
 
 FLOAT = 5126
@@ -109,9 +111,11 @@ def extension(item):
 
 
 class Imported:
-    def __init__(self, document, buffers, scene, note):
+    def __init__(self, document, buffers, scene, defaults, note):
         self.document = document
         self.scene = scene
+        self.world = defaults.get("world")
+        self.framing = {item["frame"]: item for item in defaults.get("cameras", [])}
         self.note = note
         self.channels = pointer_channels(document, buffers, note)
         self.frames = extension(document).get("frames", {"start": 1, "fps": 24})
@@ -161,8 +165,10 @@ class Imported:
                 hide(found, not visibility.get("visible", True))
             if "camera" in node and found.type == "CAMERA":
                 set_camera(found.data, extension(document["cameras"][node["camera"]]))
-        set_world(self.scene, extension(document).get("world"))
+        set_world(self.scene, extension(document).get("world") or self.world)
         set_materials(document)
+        if self.framing:
+            place_camera(self.scene.camera, self.framing[frame])
         # The importer puts time 0 at frame 0.
         return time * self.scene.render.fps
 
@@ -206,6 +212,16 @@ def set_camera(data, camera):
         data.ortho_scale = camera["ortho_scale"]
     data.shift_x = camera.get("shift_x", 0)
     data.shift_y = camera.get("shift_y", 0)
+
+
+def place_camera(holder, framed):
+    """Bounce's camera of a frame of a file without one; an unrotated Blender camera looks along -Z as glTF's does."""
+    to_z_up = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
+    holder.matrix_world = to_z_up @ mathutils.Matrix(framed["world_from_camera"]).transposed()
+    holder.data.sensor_fit = "VERTICAL"
+    holder.data.angle = framed["yfov_rad"]
+    holder.data.clip_start = framed["near_m"]
+    holder.data.clip_end = framed["far_m"]
 
 
 def set_world(scene, world):
@@ -279,7 +295,16 @@ def replace_by_diffuse(material, principled):
     return diffuse
 
 
-def set_scene(scene, root, document, imported):
+def choose_camera(scene, root, defaults, imported):
+    if imported.framing:
+        scene.camera = bpy.data.objects.new("Framing", bpy.data.cameras.new("Framing"))
+        scene.collection.objects.link(scene.camera)
+        return
+    node = root.get("camera", defaults.get("camera_node"))
+    scene.camera = imported.objects.get(node) or next((o for o in scene.objects if o.type == "CAMERA"), None)
+
+
+def set_scene(scene, root, imported):
     render = root.get("render", {})
     scene.cycles.film_exposure = render.get("film_exposure", 1)
     scene.render.pixel_aspect_x = render.get("pixel_aspect_x", 1)
@@ -294,14 +319,11 @@ def set_scene(scene, root, document, imported):
         scene.view_settings.view_transform = "Standard"
     scene.view_settings.exposure = view.get("exposure", 0)
     scene.view_settings.gamma = view.get("gamma", 1)
-    camera = imported.objects.get(root["camera"]) if "camera" in root else None
-    if camera is None:
-        camera = next((o for o in scene.objects if o.type == "CAMERA"), None)
-    scene.camera = camera
 
 
-def load(path, addon, note):
-    """Imports the file into an empty scene; returns (scene, Imported)."""
+def load(path, addon, defaults, note):
+    """Imports the file into an empty scene; defaults: what the file lacks, or None. Returns (scene, Imported)."""
+    defaults = defaults or {}
     document, buffers = read_document(path)
     if addon:
         sys.path.insert(0, addon)
@@ -319,6 +341,7 @@ def load(path, addon, note):
             setattr(numpy, name, kind)
     scene.render.fps = max(1, round(root.get("frames", {}).get("fps", 24)))
     bpy.ops.import_scene.gltf(filepath=str(path))
-    imported = Imported(document, buffers, scene, note)
-    set_scene(scene, root, document, imported)
+    imported = Imported(document, buffers, scene, defaults, note)
+    set_scene(scene, root, imported)
+    choose_camera(scene, root, defaults, imported)
     return scene, imported

@@ -9,19 +9,19 @@ Cycles prints "Sample 0/N" when it is set up) as blender_job.py tells them, and
 
     {event: "ready", version, threads, files, view}
     {event: "warm_up", frame, seconds}                     the first render of a frame, one sample
-    {event: "render", frame, spp, seed, seconds, output, rss_peak_bytes}   a later render of the same frame; median of
-                                                           `repeat`; the process's largest resident memory so far
+    {event: "render", frame, spp, seed, seconds, seconds_all, output, rss_peak_bytes}   later renders of the same frame:
+                                                           the median of `repeat` and all of them; the process's largest
+                                                           resident memory so far
 """
 
-import statistics
 import sys
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from blender_job import (frame_of, match_picture, open_job, peak_memory, referred_files, run, tell,
-                         timed_render)
+from blender_job import (frame_of, match_picture, open_job, peak_memory, referred_files, repeated_renders, run,
+                         tell, timed_render)
 
 
 def match_light_paths(cycles, bounces):
@@ -65,10 +65,10 @@ def render_frame(scene, frame, renders):
     for item in renders:
         scene.cycles.samples = item["spp"]
         scene.cycles.seed = item["seed"]
-        seconds = statistics.median(timed_render() for _ in range(item["repeat"]))
+        times = repeated_renders(timed_render(), item["repeat"])
         bpy.data.images["Render Result"].save_render(item["output"], scene=scene)
-        tell("render", frame=frame, spp=item["spp"], seed=item["seed"], seconds=seconds, output=item["output"],
-             rss_peak_bytes=peak_memory())
+        tell("render", frame=frame, spp=item["spp"], seed=item["seed"], output=item["output"],
+             rss_peak_bytes=peak_memory(), **times)
 
 
 def main():

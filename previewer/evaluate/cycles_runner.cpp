@@ -65,6 +65,7 @@ class Listener {
         } else if (kind == "render" && done_ < report_.renders.size()) {
             CyclesRender& render = report_.renders[done_++];
             render.seconds = event.at("seconds");
+            render.all_seconds = event.value("seconds_all", std::vector<double>{});
             render.rss_peak_bytes = event.value("rss_peak_bytes", size_t{0});
             if (sampling_started_) {
                 render.setup_seconds = std::chrono::duration<double>(*sampling_started_ - begin_).count();
@@ -148,10 +149,15 @@ std::string blender_version(const fs::path& blender) {
     return version;
 }
 
-std::string cycles_scripts_hash() {
-    return sha256_of_text(std::string(embedded::blender_job_py()) +
-                          std::string(embedded::cycles_render_py()) +
-                          std::string(embedded::cycles_import_gltf_py()));
+std::string shared_scripts_hash(const fs::path& scene) {
+    // A .blend is opened by Blender itself.
+    const std::string_view import =
+        scene.extension() == ".blend" ? std::string_view{} : embedded::cycles_import_gltf_py();
+    return sha256_of_text(std::string(embedded::blender_job_py()) + std::string(import));
+}
+
+std::string cycles_scripts_hash(const fs::path& scene) {
+    return sha256_of_text(shared_scripts_hash(scene) + std::string(embedded::cycles_render_py()));
 }
 
 }  // namespace bounce

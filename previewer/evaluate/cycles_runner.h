@@ -22,6 +22,7 @@ struct CyclesRender {
     double setup_seconds = 0.0;  // of those, until the first sample starts: scene transfer and BVH
     size_t rss_peak_bytes = 0;   // of Blender until then
     std::string measured;        // when, where it comes from an earlier run; else empty
+    std::vector<double> all_seconds{};  // of each of the renders
 };
 
 struct CyclesJob {
@@ -59,7 +60,10 @@ struct CyclesReport {
 // The last line of what a program printed, for a sentence about its failure.
 [[nodiscard]] std::string last_line(const std::string& output);
 
-// Hash of the scripts that render: a changed setting in them makes other references.
-[[nodiscard]] std::string cycles_scripts_hash();
+// Hash of the scripts that render such a scene: a changed setting in them makes other references.
+[[nodiscard]] std::string cycles_scripts_hash(const std::filesystem::path& scene);
+
+// Hash of what all our scripts share for such a scene: opening it and setting its picture.
+[[nodiscard]] std::string shared_scripts_hash(const std::filesystem::path& scene);
 
 }  // namespace bounce

@@ -11,19 +11,19 @@ where the scene has baked ones; none is baked, so indirect light is the world's 
 Lines "BOUNCE {json}" on stdout: ready, note, error as blender_job.py tells them, and
 
     {event: "warm_up", frame, seconds}                                     a render that is not counted
-    {event: "render", frame, samples, seconds, rss_peak_bytes}             median of `repeat` renders; output is written
+    {event: "render", frame, samples, seconds, seconds_all, rss_peak_bytes}   the median of the renders and all of them;
+                                                                           output is written
     {event: "skip", frame, samples, expected_seconds}                      it would have taken longer than the limit
 """
 
-import statistics
 import sys
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from blender_job import (SceneError, frame_of, match_picture, open_job, peak_memory, referred_files, run, tell,
-                         timed_render)
+from blender_job import (SceneError, frame_of, match_picture, open_job, peak_memory, referred_files,
+                         repeated_renders, run, tell, timed_render)
 
 # The first render compiles shaders. The second is the first of steady state, and with its samples says how time grows.
 WARM_UPS = (1, 4)
@@ -63,7 +63,9 @@ def render_frame(scene, item, limit):
         scene.eevee.taa_render_samples = samples
         seconds = timed_render()
         tell("warm_up", frame=item["frame"], seconds=seconds)
-    known[samples] = seconds
+        known = {samples: seconds}
+        if seconds > limit:
+            break  # nothing is known to be faster: another warm-up would only take as long again
     for wanted in item["renders"]:
         samples = wanted["samples"]
         expected = expected_seconds(known, samples)
@@ -71,13 +73,11 @@ def render_frame(scene, item, limit):
             tell("skip", frame=item["frame"], samples=samples, expected_seconds=expected)
             continue
         scene.eevee.taa_render_samples = samples
-        times = [timed_render()]
-        while times[0] < QUICK_SECONDS and len(times) < QUICK_REPEAT:
-            times.append(timed_render())
-        seconds = statistics.median(times)
-        known[samples] = seconds
+        first = timed_render()
+        times = repeated_renders(first, QUICK_REPEAT if first < QUICK_SECONDS else 1)
+        known[samples] = times["seconds"]
         bpy.data.images["Render Result"].save_render(wanted["output"], scene=scene)
-        tell("render", frame=item["frame"], samples=samples, seconds=seconds, rss_peak_bytes=peak_memory())
+        tell("render", frame=item["frame"], samples=samples, rss_peak_bytes=peak_memory(), **times)
 
 
 def main():

@@ -27,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::array k_samples{1, 16, 64};
 
-std::string scripts_hash() {
-    return sha256_of_text(std::string(embedded::eevee_render_py()) + cycles_scripts_hash());
+std::string scripts_hash(const fs::path& scene) {
+    return sha256_of_text(std::string(embedded::eevee_render_py()) + shared_scripts_hash(scene));
 }
 
 class EeveeRun {
@@ -72,7 +72,7 @@ class EeveeRun {
     }
 
     [[nodiscard]] std::string key(int frame, int samples) const {
-        return peer_key(job_, frame, fmt::format("Eevee, {} samples\n{}", samples, scripts_hash()));
+        return peer_key(job_, frame, fmt::format("Eevee, {} samples\n{}", samples, scripts_hash(job_.scene)));
     }
 
     bool take_cached(int frame, size_t index) {
@@ -152,6 +152,7 @@ class EeveeRun {
             value *= film_exposure_;
         }
         render.seconds = event.at("seconds");
+        render.all_seconds = event.value("seconds_all", std::vector<double>{});
         render.startup_seconds = startup_seconds_;
         render.first_render_seconds = first_render_seconds_;
         render.rss_peak_bytes = event.at("rss_peak_bytes");

@@ -16,6 +16,7 @@
 #include "evaluate/draco_check.h"
 #include "evaluate/reference_set.h"
 #include "evaluate/report.h"
+#include "evaluate/scene_defaults.h"
 #include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Renders of few samples are over in a fraction of a second; the median of three steadies them.
-constexpr int k_quick_spp = 4;
+constexpr int k_quick_spp = 16;
 constexpr int k_quick_repeat = 3;
 // Runs up to which each one's passes are timed: a process more a run.
 constexpr size_t k_most_pass_runs = 16;
@@ -61,13 +62,30 @@ FrameError measure(int frame, double seconds, const Image& image, const Image& r
     return error;
 }
 
+// Fastest and slowest of several renders; of one alone there is no spread.
+void set_spread(FrameError& error, const std::vector<double>& all_seconds) {
+    if (all_seconds.size() > 1) {
+        const auto [least, most] = std::minmax_element(all_seconds.begin(), all_seconds.end());
+        error.seconds_least = *least;
+        error.seconds_most = *most;
+    }
+}
+
+// What Blender's renders depend on beside frame and size, which every key has: the file, and how Bounce shows
+// it where it says nothing.
+std::string hash_of_scene(const fs::path& scene) {
+    const std::string file = sha256_of_file(scene);
+    const auto defaults = scene_defaults(scene, {1}, 16, 9);
+    return defaults.is_null() ? file : sha256_of_text(file + defaults.dump());
+}
+
 class Evaluator {
   public:
     explicit Evaluator(const EvaluateOptions& options)
         : options_(options),
           resolved_(resolve_scene(options.scene, options.source)),
           gltf_(resolved_.gltf),
-          scene_hash_(sha256_of_file(options.scene)),
+          scene_hash_(hash_of_scene(options.scene)),
           render_cache_(cache_folder() / "renders", options.width, options.height) {
         result_.scene_sha256 = sha256_of_gltf(gltf_);
         if (needs_cycles() || !options.peers.empty()) {
@@ -78,7 +96,6 @@ class Evaluator {
                             [this](const CyclesRender& render) { return cycles_key(render); });
         if (references_->lacks_any()) {
             // Before Bounce's own points take their minutes.
-            require_camera_and_light(options.scene);
             require_draco_library(options.scene, blender_);
         }
     }
@@ -174,9 +191,10 @@ class Evaluator {
     }
 
     [[nodiscard]] std::string cycles_key(const CyclesRender& render) const {
-        return peer_key(peer_job(), render.frame,
-                        fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp,
-                                    render.seed, options_.bounces, render.repeat, cycles_scripts_hash()));
+        return peer_key(
+            peer_job(), render.frame,
+            fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp, render.seed,
+                        options_.bounces, render.repeat, cycles_scripts_hash(options_.scene)));
     }
 
     [[nodiscard]] const CyclesRender& find_render(int frame, int spp) const {
@@ -199,6 +217,7 @@ class Evaluator {
                 const CyclesRender& render = find_render(frame, spp);
                 Image image = read_image(render.output);
                 frames.push_back(measure(frame, render.seconds, image, references_->at(frame).image));
+                set_spread(frames.back(), render.all_seconds);
                 memory = std::max(memory, render.rss_peak_bytes);
                 measured = render.measured.empty() ? measured : render.measured;
                 setup += render.setup_seconds / static_cast<double>(options_.frames.size());
@@ -221,12 +240,7 @@ class Evaluator {
                 Image image = read_image(frame.image);
                 frames.push_back(
                     measure(frame.frame, frame.seconds, image, references_->at(frame.frame).image));
-                if (!frame.all_seconds.empty()) {
-                    const auto [least, most] =
-                        std::minmax_element(frame.all_seconds.begin(), frame.all_seconds.end());
-                    frames.back().seconds_least = *least;
-                    frames.back().seconds_most = *most;
-                }
+                set_spread(frames.back(), frame.all_seconds);
                 result_.pictures.push_back({run.name, run.label, frame.frame, std::move(image)});
             }
             if (result_.curves.empty() || result_.curves.back().name != run.name) {
@@ -267,6 +281,7 @@ class Evaluator {
                     const CachedRender& render = frame.render;
                     frames.push_back(measure(frame.frame, render.seconds, render.image,
                                              references_->at(frame.frame).image));
+                    set_spread(frames.back(), render.all_seconds);
                     values.startup_seconds = render.startup_seconds;
                     values.rss_peak_bytes = std::max(values.rss_peak_bytes, render.rss_peak_bytes);
                     values.measured = frame.cached ? render.date : values.measured;

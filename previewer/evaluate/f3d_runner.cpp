@@ -83,10 +83,10 @@ class F3dRun {
 
   private:
     [[nodiscard]] std::string key(int frame, size_t light) const {
-        return peer_key(
-            job_, frame,
-            fmt::format("f3d, {}\n{}\n{}", k_lights.at(light).label, version_,
-                        sha256_of_text(std::string(embedded::f3d_export_py()) + cycles_scripts_hash())));
+        return peer_key(job_, frame,
+                        fmt::format("f3d, {}\n{}\n{}", k_lights.at(light).label, version_,
+                                    sha256_of_text(std::string(embedded::f3d_export_py()) +
+                                                   shared_scripts_hash(job_.scene))));
     }
 
     [[nodiscard]] fs::path gltf(int frame, bool lit) const {

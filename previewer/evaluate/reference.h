@@ -20,7 +20,7 @@ struct ReferenceKey {
     int spp = 0;  // 0: as many as the noise must be small for (reference_growth.h)
     int bounces = 1;
     std::string blender;       // blender_version()
-    std::string scripts_hash;  // cycles_scripts_hash()
+    std::string scripts_hash;  // cycles_scripts_hash() of the scene
 };
 
 // The name, without extension, of the reference's files in the cache.

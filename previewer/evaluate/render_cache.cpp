@@ -66,6 +66,7 @@ std::optional<CachedRender> RenderCache::load(const std::string& key) const {
             return std::nullopt;
         }
         render.seconds = finite_number(record, "seconds");
+        render.all_seconds = record.at("all_seconds").get<std::vector<double>>();
         render.setup_seconds = finite_number(record, "setup_seconds");
         render.startup_seconds = finite_number(record, "startup_seconds");
         render.first_render_seconds = finite_number(record, "first_render_seconds");
@@ -94,6 +95,7 @@ void RenderCache::store(const std::string& key, const CachedRender& render,
     write_text_file(file(key, ".json"), nlohmann::json{{"key", key},
                                                        {"image_sha256", sha256_of_file(image)},
                                                        {"seconds", render.seconds},
+                                                       {"all_seconds", render.all_seconds},
                                                        {"setup_seconds", render.setup_seconds},
                                                        {"startup_seconds", render.startup_seconds},
                                                        {"first_render_seconds", render.first_render_seconds},

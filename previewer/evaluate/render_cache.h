@@ -15,8 +15,9 @@ namespace bounce {
 
 // One picture and what making it cost. What is not known is 0.
 struct CachedRender {
-    Image image;  // scene-linear
-    double seconds = 0.0;
+    Image image;                      // scene-linear
+    double seconds = 0.0;             // median of the renders
+    std::vector<double> all_seconds;  // of each; one where it was rendered once, none where not known
     double setup_seconds = 0.0;
     double startup_seconds = 0.0;
     double first_render_seconds = 0.0;

@@ -6,10 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "evaluate/cache.h"
 #include "evaluate/sha256.h"
 
@@ -97,32 +95,17 @@ std::string sha256_of_gltf(const fs::path& gltf) {
     return hash.hex_digest();
 }
 
-void require_camera_and_light(const fs::path& gltf) {
+bool gltf_leaves_to_defaults(const fs::path& gltf) {
     const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
-    if (gltf.extension() == ".blend" || !json.is_object()) {
-        return;
+    if (!json.is_object()) {
+        return false;
     }
     const auto nodes = json.value("nodes", nlohmann::json::array());
-    const auto any_node = [&](const nlohmann::json::json_pointer& what) {
-        return std::any_of(nodes.begin(), nodes.end(),
-                           [&](const nlohmann::json& node) { return node.contains(what); });
-    };
-    if (!any_node(nlohmann::json::json_pointer("/camera"))) {
-        throw input_error(fmt::format(
-            "{} has no camera: Bounce would frame it by itself, but Blender's renders, which it is compared "
-            "with, need one",
-            gltf.string()));
-    }
-    // The program's own files say what the world is; an emission above 1 is a lamp.
-    if (!gltf_uses_extension(gltf, "BOUNCE_scene") &&
-        !gltf_uses_extension(gltf, "KHR_materials_emissive_strength") &&
-        !any_node(nlohmann::json::json_pointer("/extensions/KHR_lights_punctual"))) {
-        throw input_error(
-            fmt::format("{} has no light: Bounce would light it with a white sky of its own, but Blender's "
-                        "renders, which "
-                        "it is compared with, would be black",
-                        gltf.string()));
-    }
+    const bool has_camera =
+        nodes.is_array() && std::any_of(nodes.begin(), nodes.end(), [](const nlohmann::json& node) {
+            return node.is_object() && node.contains("camera");
+        });
+    return !has_camera || !gltf_uses_extension(gltf, "BOUNCE_scene");
 }
 
 }  // namespace bounce

@@ -19,9 +19,8 @@ namespace bounce {
 // Whether the file lists the extension as used. False where it cannot be read, and for a .blend.
 [[nodiscard]] bool gltf_uses_extension(const std::filesystem::path& gltf, std::string_view name);
 
-// Throws input_error, one sentence, for a glTF file without a camera or without anything that shines: Bounce
-// then frames it and lights it by itself, which Blender's renders of the file would know nothing of. Nothing
-// for a .blend and for what is no glTF, which the loader refuses.
-void require_camera_and_light(const std::filesystem::path& gltf);
+// Whether Bounce chooses the camera or the world by itself: the file has no camera, or no BOUNCE_scene. False
+// for what is no glTF, which the loader refuses.
+[[nodiscard]] bool gltf_leaves_to_defaults(const std::filesystem::path& gltf);
 
 }  // namespace bounce
