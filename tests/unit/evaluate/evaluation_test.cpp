@@ -127,6 +127,11 @@ TEST_F(EvaluateTest, SpreadAndOptionsOfEachPoint) {
     const CurvePoint& direct = result.curves[1].points[0];
     EXPECT_DOUBLE_EQ(direct.seconds_least, 0.020);
     EXPECT_DOUBLE_EQ(direct.seconds_most, 0.030);
+    // Cycles' quick points are rendered three times; an earlier run's spread is kept with its time.
+    for (const Evaluation& run : {result, evaluate(options_)}) {
+        EXPECT_DOUBLE_EQ(run.curves[0].points[1].seconds_least, 6.0);
+        EXPECT_DOUBLE_EQ(run.curves[0].points[1].seconds_most, 16.0);
+    }
     EXPECT_EQ(direct.options, options_.runs[0].render_arguments);
     EXPECT_TRUE(result.curves[0].points[0].options.empty()) << "Cycles has none";
 }

@@ -53,7 +53,7 @@ echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames
 }
 
 // `blender`: answers --version; as a renderer of the job it copies cycles.exr to each output, and tells
-// of 2 s a sample. Its job files are appended to blender_calls; a file cycles_fail_after N ends it behind N renders, one
+// of 2 s a sample, up to 1.5 and 4 s where it is asked for three renders. Its job files are appended to blender_calls; a file cycles_fail_after N ends it behind N renders, one
 // cycles_cut N cuts off the pictures of N samples, as the real one does without a word on a full disk.
 inline std::filesystem::path fake_blender(const std::filesystem::path& folder) {
     return write_script(folder / "blender", R"py(#!/usr/bin/env python3
@@ -81,7 +81,7 @@ for frame in job["frames"]:
         if os.path.exists(here + "/cycles_cut") and int(open(here + "/cycles_cut").read()) == item["spp"]:
             os.truncate(item["output"], 300)
         tell(event="render", frame=frame["frame"], spp=item["spp"], seed=item["seed"], seconds=2.0 * item["spp"],
-             output=item["output"])
+             output=item["output"], seconds_all=[2.0 * item["spp"], 1.5 * item["spp"], 4.0 * item["spp"]][:item["repeat"]])
 )py");
 }
 
@@ -118,7 +118,7 @@ for frame in job["frames"]:
         left -= 1
         shutil.copy(here + "/peer.exr", item["output"])
         tell(event="render", frame=frame["frame"], samples=item["samples"], seconds=0.1 * item["samples"],
-             rss_peak_bytes=12345)
+             rss_peak_bytes=12345, seconds_all=[0.1 * item["samples"], 0.05 * item["samples"], 0.3 * item["samples"]])
 )py");
 }
 

@@ -85,6 +85,7 @@ TEST_F(PeersTest, EeveeIsRenderedOnceUnlessFresh) {
     ASSERT_EQ(again.points.size(), 3U);
     EXPECT_TRUE(again.points[0].frames[0].cached);
     EXPECT_EQ(again.points[2].frames[0].render.seconds, 6.4);
+    EXPECT_EQ(again.points[2].frames[0].render.all_seconds.size(), 3U);
     EXPECT_THAT(again.notes, testing::ElementsAre(HasSubstr("film exposure")));
     job_.fresh = true;
     EXPECT_FALSE(run("eevee").points[0].frames[0].cached);
