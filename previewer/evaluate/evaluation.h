@@ -74,6 +74,8 @@ struct Evaluation {
     int height = 0;
     int bounces = 1;
     std::vector<int> frames;
+    int sequence_step = 0;  // even_step() of the frames; 0 where they are no sequence
+    bool motion = false;    // whether their motion is known, and so TID
     Machine machine;
     std::string gl_vendor, gl_renderer, gl_version;
     std::string blender;
@@ -82,7 +84,7 @@ struct Evaluation {
     std::vector<Curve> curves;          // Cycles first
     std::vector<Speedup> speedups;
     FrontSummary front;
-    std::vector<Picture> pictures;
+    std::vector<Picture> pictures;  // at least those that the report shows
     std::vector<PeerResult> peers;  // what they were set to, and what is missing; their points are in curves
     std::vector<PassTimes> passes;
     std::vector<StartUp> startups;

@@ -123,6 +123,12 @@ const report = (() => {
       (headroom < 10 ? ", and a longer reference would be needed to tell small ones apart" : "")));
 
   // ---- table of all points ----
+  const flipOf = (point) => {
+    const cell = document.createDocumentFragment();
+    cell.append(digits(point.flip_ldr, 3));
+    if (point.flip_hdr !== null) element("small", `HDR ${digits(point.flip_hdr, 3)}`, cell);
+    return cell;
+  };
   const timeOf = (point) => {
     const cell = document.createDocumentFragment();
     cell.append(`${time(point.seconds)}${point.measured ? " †" : ""}`);
@@ -151,7 +157,7 @@ const report = (() => {
         const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
           : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
         for (const text of [point.label, timeOf(point), scientific(point.relmse),
-          digits(point.flip_ldr, 3), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
+          flipOf(point), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
           bytes(point.rss_peak_bytes), bytes(point.gl_peak_bytes)]) {
           row.insertCell().append(text);
         }
@@ -163,6 +169,10 @@ const report = (() => {
   const all = results.curves.flatMap((curve) => curve.points);
   const remarks = ["Process: the largest resident memory. Of Cycles and Eevee it is Blender's, up to that point. " +
     "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
+  if (all.some((point) => point.flip_hdr !== null)) {
+    remarks.push("HDR: HDR-FLIP, the largest FLIP of each pixel over all exposures at which the reference shows something" +
+      `${all.some((point) => point.flip_hdr === null) ? "; of the points whose pictures are shown above" : ""}.`);
+  }
   if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
     remarks.push("* Beyond Cycles' last point, along its last segment, but not flatter than noise falls.");
   }

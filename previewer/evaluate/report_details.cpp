@@ -27,6 +27,13 @@ ordered_json peers_json(const Evaluation& evaluation) {
     return peers;
 }
 
+ordered_json sequence_json(const Evaluation& evaluation) {
+    if (evaluation.sequence_step == 0) {
+        return nullptr;
+    }
+    return {{"step", evaluation.sequence_step}, {"motion", evaluation.motion}};
+}
+
 ordered_json startup_json(const Evaluation& evaluation) {
     ordered_json rows = ordered_json::array();
     for (const StartUp& row : evaluation.startups) {

@@ -161,6 +161,16 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         assert "--technique direct" in rows[-1]
         assert "evaluate" in window.evaluate("document.getElementById('command').textContent")
 
+        # From frame to frame: the reference and every point, sorted by a click on a heading, rising and falling.
+        steps = [point["sequence"]["flip_step_mean"] for point in points]
+        assert window.evaluate("document.querySelectorAll('#sequence tbody tr').length") == len(points) + 1
+        column = "[...document.querySelectorAll('#sequence tbody tr:not(.reference) td:nth-child(3)')].map(c => Number(c.textContent))"
+        for wanted in (sorted(steps), sorted(steps, reverse=True)):
+            window.evaluate("document.querySelector('#sequence th:nth-child(3) button').click()")
+            assert window.evaluate(column) == pytest.approx(wanted, rel=0.01)
+        assert window.evaluate("document.querySelectorAll('#sequence-meanings dt').length") == 3, "no flicker of two frames"
+        assert "HDR" in window.evaluate("document.getElementById('points').textContent")
+
         # Dark where the system is, and no wider than the window at any size.
         light = window.evaluate("getComputedStyle(document.body).backgroundColor")
         window.scheme("dark")

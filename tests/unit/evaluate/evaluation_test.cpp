@@ -2,6 +2,7 @@
 #include "evaluate/evaluation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -163,6 +164,40 @@ TEST_F(EvaluateTest, AGivenReferenceNeedsNoBlender) {
     options_.width = 16;
     EXPECT_THROW((void)evaluate(options_), Error);
     EXPECT_EQ(calls("bounce_calls"), 3) << "a wrong size is refused before anything is drawn";
+}
+
+// Pictures of 0.55 and 0.45 in turn against 0.5, as half floats: (0.05 / 0.5)^2, and 0.1 from frame to frame.
+TEST_F(EvaluateTest, FramesInARowAreASequence) {
+    test::write_constant(folder_ / "ref.exr", 0.5F, 8, 4);
+    for (int frame = 1; frame <= 8; ++frame) {
+        test::write_constant(folder_ / ("picture.000" + std::to_string(frame) + ".exr"),
+                             frame % 2 == 0 ? 0.55F : 0.45F, 8, 4);
+    }
+    Image still(8, 4);
+    for (size_t i = 2; i < still.rgb.size(); i += 3) still.rgb[i] = 5.0F;
+    write_image(folder_ / "motion.exr", still);
+    options_.given_reference = (folder_ / "ref.exr").string();
+    options_.cycles_spp.clear();
+    options_.frames = {1, 2, 3, 4, 5, 6, 7, 8};
+    const Evaluation result = evaluate(options_);
+    EXPECT_EQ(result.sequence_step, 1);
+    EXPECT_TRUE(result.motion);
+    EXPECT_EQ(calls("motion_calls"), 1) << "once for all points";
+    for (const Curve& curve : result.curves) {
+        for (const CurvePoint& point : curve.points) {
+            ASSERT_TRUE(point.sequence) << point.label;
+            EXPECT_NEAR(point.sequence->flicker_power, 0.01, 1e-4);
+            EXPECT_NEAR(point.sequence->tid, 0.1, 1e-3);
+            EXPECT_TRUE(std::isfinite(point.flip_hdr));
+        }
+    }
+    const size_t shown = shown_points(result).size();
+    EXPECT_EQ(result.pictures.size(), 8 * shown) << "others are not kept in memory";
+    options_.frames = {1};
+    const Evaluation one = evaluate(options_);
+    EXPECT_EQ(one.sequence_step, 0);
+    EXPECT_FALSE(one.curves[0].points[0].sequence);
+    EXPECT_EQ(calls("motion_calls"), 1) << "a frame alone costs nothing more";
 }
 
 TEST_F(EvaluateTest, AGivenReferenceAndALadder) {
