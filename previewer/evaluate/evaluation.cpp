@@ -14,6 +14,7 @@
 #include "evaluate/cache.h"
 #include "evaluate/cycles_cache.h"
 #include "evaluate/draco_check.h"
+#include "evaluate/engine_starts.h"
 #include "evaluate/hdr_flip_of_points.h"
 #include "evaluate/motion_layers.h"
 #include "evaluate/point_meter.h"
@@ -303,7 +304,8 @@ class Evaluator {
     }
 
     void describe() {
-        result_.startups = startups_of(result_, resolved_.export_seconds);
+        result_.startups = startups_of(result_, previews_, resolved_.export_seconds,
+                                       measure_engine_starts(blender_, result_));
         result_.scene = options_.scene.filename().string();
         result_.command = options_.command;
         result_.date = utc_now();

@@ -50,7 +50,9 @@ struct EvaluateOptions {
 struct StartUp {
     std::string engine;
     double export_seconds = 0.0;
-    double load_seconds = 0.0;
+    double display_seconds = 0.0;  // a virtual one's start
+    double start_seconds = 0.0;    // the program's, with nothing loaded
+    double load_seconds = 0.0;     // of the scene; holds the start where that cannot be told
     double first_render_seconds = 0.0;
     std::string note;  // what the figures hold
 };

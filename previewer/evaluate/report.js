@@ -190,13 +190,14 @@ const report = (() => {
   // ---- before the first frame ----
   const startup = byId("startup");
   const startupHead = startup.createTHead().insertRow();
-  for (const text of ["engine", "export", "start and load", "first render", "what the figures hold"]) {
+  for (const text of ["engine", "export", "display", "start", "load", "first render", "what the figures hold"]) {
     element("th", text, startupHead);
   }
   const startupBody = startup.createTBody();
   for (const item of results.startup) {
     const row = startupBody.insertRow();
-    for (const text of [item.engine, ...[item.export_seconds, item.load_seconds, item.first_render_seconds]
+    for (const text of [item.engine, ...[item.export_seconds, item.display_seconds, item.start_seconds,
+      item.load_seconds, item.first_render_seconds]
       .map((seconds) => (seconds === null ? "–" : time(seconds))), item.note]) {
       row.insertCell().textContent = text;
     }

@@ -39,6 +39,8 @@ ordered_json startup_json(const Evaluation& evaluation) {
     for (const StartUp& row : evaluation.startups) {
         rows.push_back({{"engine", row.engine},
                         {"export_seconds", known(row.export_seconds)},
+                        {"display_seconds", known(row.display_seconds)},
+                        {"start_seconds", known(row.start_seconds)},
                         {"load_seconds", known(row.load_seconds)},
                         {"first_render_seconds", known(row.first_render_seconds)},
                         {"note", row.note}});

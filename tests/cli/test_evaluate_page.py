@@ -64,6 +64,13 @@ def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, t
     assert own["points"][0]["rss_peak_bytes"] > 1 << 20
     assert own["points"][0]["gl_peak_bytes"] > 0
     assert [item["engine"] for item in results["startup"]] == ["Bounce", "Cycles", "Eevee", "f3d"]
+    started = results["startup"][0]
+    assert min(started[part] for part in ("start_seconds", "load_seconds", "first_render_seconds")) > 0
+    # The stand-in's first render is what it tells; its start is timed by itself, where that is less than the whole.
+    assert results["startup"][1]["first_render_seconds"] == 0.5
+    for row in results["startup"][1:]:
+        assert row["load_seconds"] > 0 and row["start_seconds"] is None or row["start_seconds"] > 0
+        assert ("timed by itself" in row["note"]) == (row["start_seconds"] is not None), row
     assert results["passes"][0]["passes"]
 
 
@@ -143,6 +150,8 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         assert window.evaluate("document.querySelectorAll('#plan-ran tr').length") > 0
         assert window.evaluate("document.querySelectorAll('#plan-left-out dd').length") > 0
         assert window.evaluate("document.querySelectorAll('#startup tbody tr').length") == 4
+        shown = window.evaluate("[...document.querySelectorAll('#startup tbody tr:first-child td')].map(cell => cell.textContent)")
+        assert [text == "–" for text in shown] == [False, True, True, False, False, False, False], shown
         bars = "Chart.getChart('passes').data.datasets.map(d => d.data[0])"
         assert sum(window.evaluate(bars)) == pytest.approx(
             1000 * sum(item["seconds"] for item in results["passes"][0]["passes"]), rel=1e-6)

@@ -26,6 +26,10 @@ def test_the_contract(statistics, scene):
     assert (stats["settings"]["width"], stats["settings"]["height"]) == (16, 9)
     assert stats["settings"]["technique"] == "rsm"
     assert [frame["frame"] for frame in stats["frames"]] == [11, 12]
+    assert stats["startup"].keys() == {"context_ms", "load_ms", "upload_ms", "first_frame_ms"}
+    assert min(stats["startup"].values()) > 0
+    told = sum(stats["startup"].values()) + sum(frame["wall_ms"] for frame in stats["frames"])
+    assert told < stats["run_ms"], "the parts are of the run and do not overlap"
     for frame in stats["frames"]:
         assert frame["wall_ms"] > 0
         assert [entry["name"] for entry in frame["passes"]] == frame["executed"]

@@ -394,6 +394,9 @@ TEST_F(EvaluateTest, LooksIntoTheFrames) {
     EXPECT_EQ(result.passes[0].left_out[0].reason, "nothing moves");
     ASSERT_EQ(result.startups.size(), 2U);
     EXPECT_EQ(result.startups[0].engine, "Bounce");
+    EXPECT_GT(result.startups[0].start_seconds, 0.040);
+    EXPECT_DOUBLE_EQ(result.startups[0].load_seconds, 0.250);
+    EXPECT_DOUBLE_EQ(result.startups[0].first_render_seconds, 0.070);
     EXPECT_EQ(result.startups[1].first_render_seconds, 3.0);
 }
 

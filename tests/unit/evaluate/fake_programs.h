@@ -53,7 +53,7 @@ for frame in $frames; do
   cp "$picture" "$(echo "$output" | sed "s/####/$number/")"
   items="$items${items:+,}{\"frame\":$frame,\"time_s\":0,\"wall_ms\":20,\"wall_ms_all\":[30,20,20],\"passes\":[{\"name\":\"gbuffer\",\"gpu_ms\":5,\"gpu_ms_all\":[4,5,9],\"cpu_ms\":1}]}"
 done
-echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames\":[$items],\"left_out\":[{\"pass\":\"deform\",\"reason\":\"nothing moves\"}],\"approximations\":[],\"memory\":{\"gl_peak_bytes\":7,\"rss_peak_bytes\":8}}" > "$stats"
+echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames\":[$items],\"left_out\":[{\"pass\":\"deform\",\"reason\":\"nothing moves\"}],\"approximations\":[],\"startup\":{\"context_ms\":40,\"load_ms\":200,\"upload_ms\":50,\"first_frame_ms\":70},\"run_ms\":0,\"memory\":{\"gl_peak_bytes\":7,\"rss_peak_bytes\":8}}" > "$stats"
 )sh");
 }
 
