@@ -28,9 +28,10 @@ ExitCode report_regressions(const Baseline& baseline, const Evaluation& evaluati
     }
     // A guard that compares fewer points than it was made for would narrow without anybody noticing.
     if (!report.missing.empty()) {
-        log::error("the baseline {} has points that this run lacks: {}; give the options that it was made with, "
-                   "or write a new one with --save-baseline",
-                   name, fmt::join(report.missing, "; "));
+        log::error(
+            "the baseline {} has points that this run lacks: {}; give the options that it was made with, "
+            "or write a new one with --save-baseline",
+            name, fmt::join(report.missing, "; "));
     }
     fmt::print("baseline {}: {} points compared, {} errors have risen, {} points are missing\n", name,
                report.compared, report.regressions.size(), report.missing.size());

@@ -20,7 +20,7 @@ enum Id {
     k_index = 401,
     k_no_key = 403,
     k_number_overflow = 406,
-    k_other = 501  // ours: finite_number() and its like
+    k_ours = 501  // of finite_number() and its like; the library has it for patches, which are not used here
 };
 
 // What stands between two words of the text; empty where they are not in it.
@@ -73,7 +73,7 @@ std::string json_fault(const nlohmann::json::exception& error) {
             return fmt::format("it has no \"{}\"", between(text, "key '", "' not found"));
         case k_number_overflow:
             return fmt::format("the number {} in it is too large", between(text, "parsing '", "'"));
-        case k_other:
+        case k_ours:
             return std::string(text);
         default:
             return "it is not built as it should be";

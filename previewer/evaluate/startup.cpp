@@ -31,7 +31,9 @@ double take_off(double& whole, double part) {
 
 StartUp of_blender(const char* engine, double together, double first_render, double display, double blender,
                    const char* first) {
-    StartUp row{.engine = engine, .first_render_seconds = first_render};
+    StartUp row;
+    row.engine = engine;
+    row.first_render_seconds = first_render;
     row.load_seconds = together;
     row.display_seconds = take_off(row.load_seconds, display);
     row.start_seconds = take_off(row.load_seconds, blender);
@@ -44,7 +46,9 @@ StartUp of_blender(const char* engine, double together, double first_render, dou
 }
 
 StartUp of_f3d(const CachedRender& render, const EngineStarts& starts) {
-    StartUp row{.engine = "f3d", .export_seconds = render.export_seconds};
+    StartUp row;
+    row.engine = "f3d";
+    row.export_seconds = render.export_seconds;
     row.load_seconds = render.startup_seconds;
     row.display_seconds = take_off(row.load_seconds, starts.display);
     row.start_seconds = take_off(row.load_seconds, starts.f3d);
