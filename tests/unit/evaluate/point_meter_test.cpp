@@ -116,7 +116,7 @@ TEST_F(PointMeterTest, APictureInAFile) {
     const CurvePoint point = measure_point(
         "x", {{1, 0.5, folder_ / "picture.exr", nullptr, {0.75, 0.25, 0.5}}},
         [this](int) -> const Image& { return reference_; }, motion({1}));
-    EXPECT_DOUBLE_EQ(point.relmse, 0.25 * 0.25 / 0.26);
+    EXPECT_NEAR(point.relmse, 0.25 * 0.25 / 0.26, 1e-12);
     EXPECT_NEAR(point.bias, -0.5, 1e-9);
     EXPECT_EQ(point.seconds_least, 0.25);
     EXPECT_EQ(point.seconds_most, 0.75);
