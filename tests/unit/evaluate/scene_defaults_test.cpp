@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <gmock/gmock.h>
 #include <glm/glm.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -54,8 +54,8 @@ glm::dvec2 project(const json& camera, const glm::dvec3& point, int width, int h
     glm::dmat4 world_from_camera;
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
-            world_from_camera[column][row] = camera["world_from_camera"][static_cast<size_t>(column)]
-                                                   [static_cast<size_t>(row)];
+            world_from_camera[column][row] =
+                camera["world_from_camera"][static_cast<size_t>(column)][static_cast<size_t>(row)];
         }
     }
     const glm::dvec3 seen(glm::inverse(world_from_camera) * glm::dvec4(point, 1.0));
