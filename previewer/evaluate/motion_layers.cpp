@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/process.h"
+#include "evaluate/cycles_runner.h"
 #include "image/image_io.h"
 #include "image/sequence_metrics.h"
 
@@ -43,7 +44,7 @@ MotionLayers::MotionLayers(const fs::path& bounce, const fs::path& scene, const 
     known_ = result.exit_code == 0;
     if (!known_) {
         log::warning("TID is not told, because the layer motion could not be drawn (code {}): {}",
-                     result.exit_code, result.output.substr(0, result.output.find_last_not_of('\n') + 1));
+                     result.exit_code, last_line(result.output));
     }
 }
 
