@@ -41,6 +41,17 @@ std::string with_article(std::string_view type) {
     return found == names.end() ? "another value" : found->second;
 }
 
+// Something was looked for in a value of this type.
+std::string container_fault(std::string_view type) {
+    if (type == "discarded") {  // what parse() gives without exceptions
+        return "it is no JSON";
+    }
+    return fmt::format("{} stands where {} belongs", with_article(type),
+                       type == "array"    ? "an object"
+                       : type == "object" ? "a list"
+                                          : "an object or a list");
+}
+
 std::string syntax_fault(std::string_view text) {
     const bool cut = text.find("unexpected end of input") != std::string_view::npos;
     const std::string_view place = between(text, "parse error at ", ":");
@@ -63,8 +74,7 @@ std::string json_fault(const nlohmann::json::exception& error) {
         case k_no_such_member_type:
         case k_not_indexable_type:
         case k_no_value_type:
-            return fmt::format("{} stands where an object or a list belongs",
-                               with_article(text.substr(text.rfind(' ') + 1)));
+            return container_fault(text.substr(text.rfind(' ') + 1));
         case k_not_utf8:
             return "it has a text that is not UTF-8";
         case k_index:

@@ -44,6 +44,9 @@ TEST(JsonFault, OfWhatItHoldsIsInWords) {
               "a text stands where an object or a list belongs");
     EXPECT_EQ(of([&] { return object.at("width").value("x", 1); }),
               "a text stands where an object or a list belongs");
+    EXPECT_EQ(of([&] { return object.at("list").at("x"); }), "a list stands where an object belongs");
+    EXPECT_EQ(of([&] { return object.at(0); }), "an object stands where a list belongs");
+    EXPECT_EQ(of([&] { return json::parse("{", nullptr, false).at("x"); }), "it is no JSON");
     EXPECT_EQ(of([&] { return object.at("list").at(0); }), "a list in it is too short");
     EXPECT_EQ(of([&] { return json("\xff").dump(); }), "it has a text that is not UTF-8");
 }
