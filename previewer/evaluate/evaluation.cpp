@@ -42,12 +42,19 @@ constexpr size_t k_most_pass_runs = 16;
 // Each is a rendering with and one without the passes timed.
 constexpr int k_most_pass_repeats = 3;
 
-// What Blender's renders depend on beside frame and size, which every key has: the file, and how Bounce shows
-// it where it says nothing.
-std::string hash_of_scene(const fs::path& scene) {
-    const std::string file = sha256_of_file(scene);
+// Of the scene's content: the file with those that a glTF refers to. Those of a .blend Blender tells, and the
+// caches keep their hashes.
+std::string hash_of_content(const fs::path& scene) {
+    const bool alone = scene.extension() == ".blend" || gltf_external_files(scene).empty();
+    return alone ? sha256_of_file(scene) : sha256_of_gltf(scene);
+}
+
+// What Blender's renders depend on beside frame and size, which every key has: the content, and how Bounce
+// shows it where it says nothing.
+std::string hash_for_renders(const fs::path& scene) {
+    const std::string content = hash_of_content(scene);
     const auto defaults = scene_defaults(scene, {1}, 16, 9);
-    return defaults.is_null() ? file : sha256_of_text(file + defaults.dump());
+    return defaults.is_null() ? content : sha256_of_text(content + defaults.dump());
 }
 
 class Evaluator {
@@ -56,7 +63,8 @@ class Evaluator {
         : options_(options),
           resolved_(resolve_scene(options.scene, options.source)),
           gltf_(resolved_.gltf),
-          scene_hash_(hash_of_scene(options.scene)),
+          scene_hash_(hash_of_content(options.scene)),
+          render_hash_(hash_for_renders(options.scene)),
           render_cache_(cache_folder() / "renders", options.width, options.height) {
         result_.scene_sha256 = sha256_of_gltf(gltf_);
         if (needs_cycles() || !options.peers.empty()) {
@@ -104,7 +112,7 @@ class Evaluator {
     [[nodiscard]] ReferenceSet::Source reference_source() const {
         return {options_.scene,  scene_hash_,      options_.frames,    options_.width,
                 options_.height, options_.bounces, options_.reference, options_.given_reference,
-                blender_,        result_.blender};
+                blender_,        result_.blender,  render_hash_};
     }
 
     void render_references() {
@@ -249,7 +257,7 @@ class Evaluator {
     }
 
     [[nodiscard]] PeerJob peer_job() const {
-        return {options_.scene,  scene_hash_,
+        return {options_.scene,  render_hash_,
                 blender_,        result_.blender,
                 options_.frames, options_.width,
                 options_.height, options_.peer_limit_seconds,
@@ -330,7 +338,8 @@ class Evaluator {
     ResolvedScene resolved_;
     fs::path gltf_;
     fs::path blender_;
-    std::string scene_hash_;
+    std::string scene_hash_;   // of the content
+    std::string render_hash_;  // of what Blender's renders depend on
     RenderCache render_cache_;
     std::optional<ReferenceSet> references_;
     std::vector<PreviewResult> previews_;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "environment.h"
@@ -14,6 +15,7 @@
 #include "fake_programs.h"
 #include "file_size_limit.h"
 #include "temporary_folder.h"
+#include "triangle_gltf.h"
 
 namespace bounce {
 namespace {
@@ -272,8 +274,8 @@ TEST_F(EvaluateTest, CyclesFailureIsASentence) {
 
 TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
     const Environment none("BLENDER_EXTERN_DRACO_LIBRARY_PATH", "");
-    std::ofstream(folder_ / "scene.glb") << R"({"nodes": [{"camera": 0}],
-        "extensionsUsed": ["KHR_draco_mesh_compression", "BOUNCE_scene"]})";
+    options_.scene =
+        test::write_triangle(folder_ / "scene.gltf", {{"extensionsUsed", {"KHR_draco_mesh_compression"}}});
     try {
         (void)evaluate(options_);
         FAIL() << "evaluated";
@@ -287,6 +289,28 @@ TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
     EXPECT_FALSE(evaluate(options_).references[0].cached);
     std::filesystem::remove_all(folder_ / "build");
     EXPECT_TRUE(evaluate(options_).references[0].cached) << "what is finished needs no Draco";
+}
+
+TEST_F(EvaluateTest, AChangedBufferBesideAFileMakesAnotherReference) {
+    options_.scene = test::write_triangle(folder_ / "scene.gltf");
+    EXPECT_FALSE(evaluate(options_).references[0].cached);
+    EXPECT_TRUE(evaluate(options_).references[0].cached);
+    {
+        const float x = 3.5F;  // of the first corner, which was at 3
+        std::fstream data(folder_ / "triangle.bin", std::ios::in | std::ios::out | std::ios::binary);
+        data.write(reinterpret_cast<const char*>(&x), sizeof x);
+    }
+    const Evaluation changed = evaluate(options_);
+    EXPECT_FALSE(changed.references[0].cached);
+    EXPECT_TRUE(changed.curves[0].points[0].measured.empty()) << "Cycles' own points as well";
+}
+
+TEST_F(EvaluateTest, BlenderIsToldWhatBounceShowsWhereAFileSaysNothing) {
+    options_.scene = test::write_triangle(folder_ / "scene.gltf");
+    (void)evaluate(options_);
+    const auto job = nlohmann::json::parse(blender_jobs().front());
+    EXPECT_EQ(job["defaults"]["cameras"].size(), 2U) << "one a frame";
+    EXPECT_GT(job["defaults"]["world"]["strength"], 0.0);
 }
 
 TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
