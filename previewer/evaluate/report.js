@@ -221,7 +221,7 @@ const report = (() => {
     "reference: half the difference of two halves with different seeds, squared and weighted as in relMSE" +
     (headroom === null ? "." : `. The smallest error measured here is ${digits(headroom, 2)} times as large.`));
   fact("Time", "Per frame in steady state: Cycles renders a frame once before the render that is timed (the median of " +
-    "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
+    "three up to 16 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
     (setup > 0 ? ` Cycles' set-up of each frame (transfer and BVH), which is in its times: ${time(setup)}.` : ""));
   for (const peer of results.peers) {
     if (results.curves.some((curve) => curve.name === peer.name)) fact(peer.name, peer.settings);
