@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """stats.json, and how frame numbers become time."""
 import json
+import os
+import shutil
 
 import gltf_scenes
 import pytest
@@ -49,6 +51,12 @@ def test_the_contract(statistics, scene):
     assert "vpls" not in stats["settings"], "an option that this technique does not have"
     assert stats["memory"]["gl_peak_bytes"] > 16 * 9 * 16
     assert stats["memory"]["rss_peak_bytes"] > 1 << 20
+
+
+def test_a_name_that_is_no_utf_8(statistics, scene, tmp_path):
+    named = tmp_path / os.fsdecode(b"\xff.glb")
+    shutil.copy(scene, named)
+    assert statistics("--frames", "11", *RSM, of=named)["scene"].endswith("\N{REPLACEMENT CHARACTER}.glb")
 
 
 def occluded():
