@@ -16,7 +16,7 @@ double median(const std::vector<PreviewResult>& previews, double PreviewResult::
         seconds.push_back(preview.*part);
     }
     std::sort(seconds.begin(), seconds.end());
-    return seconds[seconds.size() / 2];
+    return 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
 }
 
 // Takes a part that was measured in another run off a whole: 0 and the whole where it does not fit, as on a
