@@ -37,7 +37,9 @@
     (step !== 1 ? " TID needs frames that follow each other one by one." : motion ? "" : " TID is not known: the layer motion could not be drawn.") +
     (motion && first.tid_coverage !== null ? ` ${share(first.tid_coverage)} of the pixels have their point in the frame before and count for TID.` : "") +
     (results.frames.length < 8 ? " Flicker needs eight frames." : "") +
-    " Cycles' points have one seed in all frames, as by Blender's default: their noise stands still where nothing moves.";
+    (results.curves.some((curve) => curve.reference_engine)
+      ? " Cycles' points have one seed in all frames, as by Blender's default: their noise stands still where nothing moves."
+      : "");
   for (const column of columns) {
     element("dt", column.name, byId("sequence-meanings"));
     element("dd", column.meaning, byId("sequence-meanings"));
