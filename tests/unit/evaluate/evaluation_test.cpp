@@ -296,8 +296,9 @@ TEST_F(EvaluateTest, AChangedBufferBesideAFileMakesAnotherReference) {
     EXPECT_FALSE(evaluate(options_).references[0].cached);
     EXPECT_TRUE(evaluate(options_).references[0].cached);
     {
-        const float x = 3.5F;  // of the first corner, which was at 3
+        const float x = 3.6F;  // of the third corner, from 3.2: the box, and so the framing, stays
         std::fstream data(folder_ / "triangle.bin", std::ios::in | std::ios::out | std::ios::binary);
+        data.seekp(24);
         data.write(reinterpret_cast<const char*>(&x), sizeof x);
     }
     const Evaluation changed = evaluate(options_);
