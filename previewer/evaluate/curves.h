@@ -50,6 +50,9 @@ struct CurvePoint {
     double ssim = 0.0;
     double psnr_db = 0.0;  // mean of the frames' decibels
     double bias = 0.0;
+    double nrmse = 0.0;
+    double smape = 0.0;
+    std::array<double, 3> bias_rgb{};
     double flip_hdr = std::numeric_limits<double>::quiet_NaN();  // NaN where a frame has none
     std::optional<SequenceMetrics> sequence;  // where the frames are one; its errors are those of frames
     bool pareto = false;

@@ -12,6 +12,7 @@
 #include "core/process.h"
 #include "evaluate/blender_script.h"
 #include "evaluate/embedded.h"
+#include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
 
@@ -152,7 +153,7 @@ std::string blender_version(const fs::path& blender) {
 std::string shared_scripts_hash(const fs::path& scene) {
     // A .blend is opened by Blender itself.
     const std::string_view import =
-        scene.extension() == ".blend" ? std::string_view{} : embedded::cycles_import_gltf_py();
+        is_blend(scene) ? std::string_view{} : embedded::cycles_import_gltf_py();
     return sha256_of_text(std::string(embedded::blender_job_py()) + std::string(import));
 }
 

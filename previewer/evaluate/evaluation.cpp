@@ -45,7 +45,7 @@ constexpr int k_most_pass_repeats = 3;
 // Of the scene's content: the file with those that a glTF refers to. Those of a .blend Blender tells, and the
 // caches keep their hashes.
 std::string hash_of_content(const fs::path& scene) {
-    const bool alone = scene.extension() == ".blend" || gltf_external_files(scene).empty();
+    const bool alone = is_blend(scene) || gltf_external_files(scene).empty();
     return alone ? sha256_of_file(scene) : sha256_of_gltf(scene);
 }
 
@@ -71,12 +71,8 @@ class Evaluator {
             blender_ = find_blender(options.source.blender);
             result_.blender = blender_version(blender_);
         }
-        references_.emplace(reference_source(), cache_folder() / "references", render_cache_,
-                            [this](const CyclesRender& render) { return cycles_key(render); });
-        if (references_->lacks_any()) {
-            // Before Bounce's own points take their minutes.
-            require_draco_library(options.scene, blender_);
-        }
+        references_.emplace(reference_source(), cache_folder() / "references", render_cache_, ladder_key());
+        refuse_what_blender_cannot();
     }
 
     Evaluation run() {
@@ -149,7 +145,37 @@ class Evaluator {
         return least;
     }
 
-    void render_ladder() {
+    // Before Bounce's own points take their minutes. Where all of Cycles' pictures are kept, nothing is
+    // refused.
+    void refuse_what_blender_cannot() const {
+        try {
+            require_draco_library(options_.scene, blender_);
+            require_camera();
+        } catch (const Error&) {
+            if (references_->lacks_any() || lacks_cycles_points()) {
+                throw;
+            }
+        }
+    }
+
+    // Bounce frames a scene without a camera by itself; of a .blend Blender renders what it has.
+    void require_camera() const {
+        if (is_blend(options_.scene) && !gltf_names_camera(gltf_)) {
+            throw input_error(
+                fmt::format("{} has no active camera: Cycles cannot render it", options_.scene.string()));
+        }
+    }
+
+    [[nodiscard]] CyclesKey ladder_key() const {
+        return [this](const CyclesRender& render) { return cycles_key(render); };
+    }
+
+    [[nodiscard]] bool lacks_cycles_points() const {
+        return cycles_cache_lacks_any(ladder_job(), render_cache_, ladder_key(), options_.fresh);
+    }
+
+    // Cycles' own points; without one where there are none.
+    [[nodiscard]] CyclesJob ladder_job() const {
         CyclesJob job;
         job.scene = options_.scene;
         job.width = options_.width;
@@ -166,10 +192,14 @@ class Evaluator {
                 job.renders.push_back(render);
             }
         }
+        return job;
+    }
+
+    void render_ladder() {
+        const CyclesJob job = ladder_job();
         Progress progress("Cycles", static_cast<int>(job.renders.size()));
         result_.cycles = run_cycles_cached(
-            job, blender_, render_cache_, [&](const CyclesRender& render) { return cycles_key(render); },
-            options_.fresh,
+            job, blender_, render_cache_, ladder_key(), options_.fresh,
             [&](const CyclesRender& render, const CyclesReport&) { tell_cycles(progress, render, ""); });
     }
 

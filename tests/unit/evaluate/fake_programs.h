@@ -127,7 +127,7 @@ for frame in job["frames"]:
 )py");
 }
 
-// `f3d` in folder/bin: 100 ms of start and 5 ms a press; copies peer.png to its output. Its arguments are appended to
+// `f3d` in folder/bin: 100 ms of start, 40 ms without a window, and 5 ms a press; copies peer.png to its output. Its arguments are appended to
 // f3d_calls.
 inline std::filesystem::path fake_f3d(const std::filesystem::path& folder) {
     return write_script(folder / "bin/f3d", R"py(#!/usr/bin/env python3
@@ -135,6 +135,9 @@ import shutil, sys, time
 here = ')py" + folder.string() + R"py('
 if "--version" in sys.argv:
     print("f3d 9.9.9")
+    sys.exit()
+if "--no-render" in sys.argv:
+    time.sleep(0.04)
     sys.exit()
 open(here + "/f3d_calls", "a").write(" ".join(sys.argv[1:]) + "\n")
 options = dict(word[2:].split("=", 1) for word in sys.argv[1:] if "=" in word)
