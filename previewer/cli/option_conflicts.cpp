@@ -133,10 +133,26 @@ std::string layer_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+// Options beside several samples a pixel.
+std::string samples_conflict(const RenderOptions& o, const Settings& s) {
+    if (s.samples == 1) {
+        return {};
+    }
+    if (o.antialias && *o.antialias) {
+        return "--antialias on would smooth outlines twice: --samples does so by the same filter";
+    }
+    if (!shows_light(s.show)) {
+        return fmt::format(
+            "--samples takes means of light; --show {} shows data, of which a mean says nothing",
+            name_of(s.show));
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    for (std::string conflict : {technique_conflict(o, s), layer_conflict(o, s)}) {
+    for (std::string conflict : {technique_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

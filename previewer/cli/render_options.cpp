@@ -257,6 +257,17 @@ void RenderOptions::add_to(CLI::App& command) {
     add_layer_options(command, *this);
 }
 
+void RenderOptions::add_still_to(CLI::App& command) {
+    Group group(command, k_light_transport_group);
+    group.number(
+        "--samples", samples_a_pixel,
+        fmt::format(
+            "The mean of N frames, 1 to {}, that look at different places in and around each pixel, by "
+            "Cycles' pixel filter; N times as slow. More than 1 takes the place of --antialias",
+            k_most_samples),
+        std::to_string(Settings{}.samples));
+}
+
 Settings RenderOptions::settings_without_scene() const {
     Settings out = preset_settings(preset ? presets().at(*preset) : Preset::automatic);
     set(technique, setting_names<Technique>(), out.technique);
@@ -279,6 +290,8 @@ Settings RenderOptions::settings_without_scene() const {
     set(pull_push_levels, out.pull_push_levels);
     set(pull_threshold, out.pull_threshold);
     set(push_threshold, out.push_threshold);
+    set(samples_a_pixel, out.samples);
+    out.antialias = out.antialias && out.samples == 1;
     set(antialias, out.antialias);
     set(shadow_size, out.shadow_size);
     set(show, setting_names<Show>(), out.show);

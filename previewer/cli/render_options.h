@@ -58,6 +58,7 @@ struct RenderOptions {
     std::optional<float> push_threshold;
 
     std::optional<bool> antialias;
+    std::optional<int> samples_a_pixel;  // of a still
     std::optional<int> shadow_size;
     std::optional<std::string> show;
     std::optional<int> light;
@@ -65,6 +66,8 @@ struct RenderOptions {
     std::optional<int> bounce;
 
     void add_to(CLI::App& command);
+    // What only pictures that are written have.
+    void add_still_to(CLI::App& command);
     // Refuses what is wrong whatever the scene, before it is read. Throws usage_error.
     void check() const;
     // The renderer's settings; the size is the scene's own where none was given. Throws usage_error, also for

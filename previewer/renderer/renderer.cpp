@@ -32,7 +32,8 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
                            settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
                            settings.interpolation_distance};
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
-    frame.composite = {scene.render.film_exposure, whole ? 1.0F : 0.0F, 0.0F, half_scale};
+    frame.composite = {scene.render.film_exposure, whole ? 1.0F : 0.0F,
+                       1.0F / std::sqrt(static_cast<float>(settings.samples)), half_scale};
     return frame;
 }
 

@@ -102,7 +102,10 @@ struct Settings {
     bool near_field = true;      // what lies near the lights is gathered from the RSMs
     bool glossy_bounces = true;  // glossy lobes of lights and receivers count
 
-    bool antialias = true;   // outlines are smoothed as by Cycles' pixel filter
+    bool antialias = true;  // outlines are smoothed as by Cycles' pixel filter
+    // Frames whose mean the picture is (render_samples()); more than one filter outlines themselves, so
+    // antialias is off. A frame of several smooths the outlines of shadows over its part of a pixel alone.
+    int samples = 1;
     int shadow_size = 2048;  // a cube's faces have half of it
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait

@@ -97,7 +97,8 @@ std::string settings_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
-          map_size_refusal("--shadow-size", s.shadow_size), ism_refusal(s),
+          map_size_refusal("--shadow-size", s.shadow_size),
+          out_of("--samples", s.samples, 1, k_most_samples, "give a number"), ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
                               : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
         if (!refusal.empty()) {

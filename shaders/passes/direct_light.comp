@@ -101,9 +101,10 @@ void main() {
         if (max(max(radiance.r, radiance.g), radiance.b) > 0.0) {
 #ifdef SHADOW
             vec3 normal = geometric_normal(pixel);
-            radiance *= light_visibility(s.position, normal,
-                                         step_on_plane(s.position, normal, v, pixel + ivec2(1, 0), depth),
-                                         step_on_plane(s.position, normal, v, pixel + ivec2(0, 1), depth));
+            // Of a pixel that several frames share, each smooths its own part.
+            vec3 right = step_on_plane(s.position, normal, v, pixel + ivec2(1, 0), depth) * frame.composite.z;
+            vec3 up = step_on_plane(s.position, normal, v, pixel + ivec2(0, 1), depth) * frame.composite.z;
+            radiance *= light_visibility(s.position, normal, right, up);
 #endif
             sum += radiance;
         }

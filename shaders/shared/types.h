@@ -30,7 +30,7 @@ struct FrameUniforms {
     ivec4 size;             // width, height, low-resolution step (pixels), RSM samples
     vec4 interpolation;     // cos of the largest normal difference, largest plane distance in footprints,
                             // radius of a pixel's footprint at distance 1 (or its half size, orthographic), -
-    vec4 composite;         // film exposure, direct on, indirect on, scale of bounced light in half floats
+    vec4 composite;         // film exposure, direct on, smoothing of shadows in pixels, scale of bounced light in half floats
 };
 
 // One rasterised view: the camera or a face of a light.

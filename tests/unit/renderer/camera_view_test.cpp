@@ -168,6 +168,20 @@ TEST(CameraView, AScaledOrMirroredCameraNodeSeesTheSamePicture) {
     expect_near(project(scaled, 160, 90, point), glm::dvec2(project(plain, 160, 90, point)), 1e-9);
 }
 
+TEST(CameraView, AnOffsetMovesTheFrameByPixels) {
+    for (const bool is_perspective : {true, false}) {
+        CameraView view = blender(scene::SensorFit::automatic);
+        view.camera.perspective = is_perspective;
+        view.camera.sensor->ortho_scale = 8.0F;
+        view.pixel_aspect = 1.5;
+        const glm::dvec3 point(0.3, -0.4, -2.0);
+        const glm::dvec2 before(project(view, 160, 90, point));
+        // Pixels look a quarter to the right and three quarters up, so what is seen goes the other way.
+        view.offset_px = {0.25, 0.75};
+        expect_near(project(view, 160, 90, point), before - glm::dvec2(2 * 0.25 / 160, 2 * 0.75 / 90), 1e-12);
+    }
+}
+
 TEST(CameraView, RenderSpaceDoesNotMoveThePicture) {
     // 10^6 units away, the scene three kilometres large.
     CameraView view = perspective(0.8);
