@@ -67,10 +67,10 @@ CameraMatrices camera_matrices(const CameraView& view, int width, int height, co
     w.move(view.offset_px.x * (w.right - w.left) / width, view.offset_px.y * (w.top - w.bottom) / height);
     CameraMatrices out;
     out.perspective = camera.perspective;
+    // Each axis without its scale, as Cycles takes a camera: below a mirrored parent its picture is mirrored.
+    const glm::dvec3 right = glm::normalize(glm::dvec3(view.world_from_camera[0]));
+    const glm::dvec3 up = glm::normalize(glm::dvec3(view.world_from_camera[1]));
     const glm::dvec3 back = glm::normalize(glm::dvec3(view.world_from_camera[2]));
-    // From the upward axis, so that a mirrored parent turns no picture over: a camera has no scale.
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(view.world_from_camera[1]), back));
-    const glm::dvec3 up = glm::cross(back, right);
     out.position = space.point(glm::dvec3(view.world_from_camera[3]));
     out.forward = -back;
 

@@ -10,7 +10,7 @@ namespace bounce {
 
 // A camera placed in the world and fitted to a picture.
 struct CameraView {
-    glm::dmat4 world_from_camera{1.0};  // looks along -Z; scale is ignored
+    glm::dmat4 world_from_camera{1.0};  // looks along -Z; scale is ignored, but not its sign
     scene::Camera camera;
     double pixel_aspect = 1.0;  // a pixel's width over its height
     // Where pixels look, from their middles, in pixels: right and up.

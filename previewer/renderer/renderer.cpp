@@ -221,7 +221,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         return passes::View{uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)}),
                             clip_from_render, mirrored};
     };
-    const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), false);
+    const bool mirrored = glm::determinant(glm::dmat3(view.world_from_camera)) < 0.0;
+    const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), mirrored);
 
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;

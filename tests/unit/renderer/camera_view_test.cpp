@@ -155,17 +155,18 @@ TEST(CameraView, BlenderOrthographicScaleIsTheFittedSide) {
     expect_near(project(view, 200, 100, {2.0, 0.0, -5.0}), {0.0, 0.0});
 }
 
-TEST(CameraView, AScaledOrMirroredCameraNodeSeesTheSamePicture) {
-    // Scale of a camera's node is ignored; its Y and Z say where it looks and which way is up.
+TEST(CameraView, AScaledCameraNodeSeesTheSamePictureAndAMirroredOneItsMirrorImage) {
+    // Scale of a camera's node is ignored, but for its sign.
     const CameraView plain = perspective(1.0);
     CameraView scaled = plain;
     scaled.world_from_camera = glm::scale(glm::dmat4(1.0), glm::dvec3(3.0, 0.2, 7.0));
     const glm::dvec3 point(0.3, -0.4, -2.0);
     expect_near(project(scaled, 160, 90, point), glm::dvec2(project(plain, 160, 90, point)), 1e-9);
     EXPECT_NEAR(project(scaled, 160, 90, point).z, project(plain, 160, 90, point).z, 1e-9);
-    // Under a mirrored parent the picture is not turned over.
+    // Below a mirrored parent the picture is mirrored, as Cycles draws it.
     scaled.world_from_camera = glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0));
-    expect_near(project(scaled, 160, 90, point), glm::dvec2(project(plain, 160, 90, point)), 1e-9);
+    expect_near(project(scaled, 160, 90, point),
+                glm::dvec2(-1.0, 1.0) * glm::dvec2(project(plain, 160, 90, point)), 1e-9);
 }
 
 TEST(CameraView, AnOffsetMovesTheFrameByPixels) {
