@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -318,6 +319,9 @@ std::vector<std::pair<std::string, std::string>> shown_points(const Evaluation& 
 }
 
 void write_report(const Evaluation& evaluation, const std::filesystem::path& folder) {
+    // Of an earlier run: it would say that this one's report is whole before it is.
+    std::error_code ignored;
+    std::filesystem::remove(folder / "results.json", ignored);
     const auto shown = shown_points(evaluation);
     const auto attributes = [&](int frame) {
         return ImageAttributes{{"bounce:scene", evaluation.scene}, {"bounce:frame", std::to_string(frame)}};
@@ -330,7 +334,7 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
     if (evaluation.final_render) {
         for (const Reference& reference : evaluation.final_render->references) {
             write_image(folder / "frames" / fmt::format("final.{:04}.exr", reference.frame), reference.image,
-                        attributes(reference.frame));
+                        final_attributes(reference, evaluation.scene, evaluation.scene_hash));
         }
     }
     for (const Picture& picture : evaluation.pictures) {
