@@ -125,7 +125,7 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
                      [](float value) { return std::isfinite(value); })) {
         throw input_error(fmt::format("the reference {} has values that are not numbers", path.string()));
     }
-    if (!header.contains(k_scene_hash)) {
+    if (!header.contains(k_scene_hash) && !header.contains(k_bounces)) {
         log::warning(
             "the reference {} does not say of which scene, frame and bounces it is; it is taken for the "
             "right one",
