@@ -72,7 +72,18 @@ class Evaluator {
             result_.blender = blender_version(blender_);
         }
         references_.emplace(reference_source(), cache_folder() / "references", render_cache_, ladder_key());
+        if (options.final_render) {
+            ReferenceSet::Source source = reference_source();
+            source.given.clear();
+            source.bounces = k_own_light_paths;
+            final_renders_.emplace(source, cache_folder() / "references", render_cache_,
+                                   key_with(k_own_light_paths));
+        }
         refuse_what_blender_cannot();
+        not_exported_ = gltf_not_exported(gltf_);
+        for (const std::string& line : not_exported_) {
+            log::warning("{}", line);
+        }
     }
 
     Evaluation run() {
@@ -88,6 +99,7 @@ class Evaluator {
             render_ladder();
         }
         render_references();
+        render_final();
         motion_.emplace(options_.bounce, gltf_, options_.frames, options_.width, options_.height,
                         scratch_ / "motion");
         measure_cycles();
@@ -102,7 +114,7 @@ class Evaluator {
 
   private:
     [[nodiscard]] bool needs_cycles() const {
-        return options_.given_reference.empty() || !options_.cycles_spp.empty();
+        return options_.given_reference.empty() || !options_.cycles_spp.empty() || options_.final_render;
     }
 
     [[nodiscard]] ReferenceSet::Source reference_source() const {
@@ -118,6 +130,27 @@ class Evaluator {
             result_.cycles = *report;
         }
         result_.references = references_->all();
+    }
+
+    void render_final() {
+        if (!final_renders_) {
+            return;
+        }
+        log::info("the scene by its own light paths:");
+        (void)final_renders_->render(
+            [this](int frame, const Image& target) { return smallest_error(frame, target); });
+        FinalRender final;
+        final.references = final_renders_->all();
+        std::vector<RenderedFrame> matched;
+        for (const Reference& reference : result_.references) {
+            matched.push_back({reference.frame, reference.seconds, {}, &reference.image, {}});
+        }
+        final.matched = errors_against(matched, final_image());
+        result_.final_render = std::move(final);
+    }
+
+    [[nodiscard]] ReferenceImage final_image() const {
+        return [this](int frame) -> const Image& { return final_renders_->at(frame).image; };
     }
 
     // The least relMSE of all that was rendered of a frame, whoever rendered it.
@@ -152,7 +185,8 @@ class Evaluator {
             require_draco_library(options_.scene, blender_);
             require_camera();
         } catch (const Error&) {
-            if (references_->lacks_any() || lacks_cycles_points()) {
+            if (references_->lacks_any() || lacks_cycles_points() ||
+                (final_renders_ && final_renders_->lacks_any())) {
                 throw;
             }
         }
@@ -162,13 +196,17 @@ class Evaluator {
     void require_camera() const {
         if (is_blend(options_.scene) && !gltf_names_camera(gltf_)) {
             throw input_error(
-                fmt::format("{} has no active camera: Cycles cannot render it", options_.scene.string()));
+                fmt::format("{} has no active camera that Bounce and Cycles could both look through: set a "
+                            "perspective or orthographic one",
+                            options_.scene.string()));
         }
     }
 
-    [[nodiscard]] CyclesKey ladder_key() const {
-        return [this](const CyclesRender& render) { return cycles_key(render); };
+    [[nodiscard]] CyclesKey key_with(int bounces) const {
+        return [this, bounces](const CyclesRender& render) { return cycles_key(render, bounces); };
     }
+
+    [[nodiscard]] CyclesKey ladder_key() const { return key_with(options_.bounces); }
 
     [[nodiscard]] bool lacks_cycles_points() const {
         return cycles_cache_lacks_any(ladder_job(), render_cache_, ladder_key(), options_.fresh);
@@ -203,11 +241,11 @@ class Evaluator {
             [&](const CyclesRender& render, const CyclesReport&) { tell_cycles(progress, render, ""); });
     }
 
-    [[nodiscard]] std::string cycles_key(const CyclesRender& render) const {
+    [[nodiscard]] std::string cycles_key(const CyclesRender& render, int bounces) const {
         return peer_key(
             peer_job(), render.frame,
-            fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp, render.seed,
-                        options_.bounces, render.repeat, cycles_scripts_hash(options_.scene)));
+            fmt::format("Cycles, {} spp, seed {}, {}, median of {}\n{}", render.spp, render.seed,
+                        bounces_text(bounces), render.repeat, cycles_scripts_hash(options_.scene)));
     }
 
     [[nodiscard]] const CyclesRender& find_render(int frame, int spp) const {
@@ -222,6 +260,9 @@ class Evaluator {
             return references_->at(frame).image;
         };
         curve.points.push_back(measure_point(label, frames, reference, *motion_));
+        if (final_renders_) {
+            curve.points.back().final_errors = errors_against(frames, final_image());
+        }
         drawn_.push_back({result_.curves.size() - 1, curve.points.size() - 1, std::move(frames)});
         return curve.points.back();
     }
@@ -345,6 +386,7 @@ class Evaluator {
         result_.startups = startups_of(result_, previews_, resolved_.export_seconds,
                                        measure_engine_starts(blender_, result_));
         result_.scene = options_.scene.filename().string();
+        result_.cycles.notes.insert(result_.cycles.notes.begin(), not_exported_.begin(), not_exported_.end());
         result_.command = options_.command;
         result_.date = utc_now();
         result_.width = options_.width;
@@ -368,10 +410,12 @@ class Evaluator {
     ResolvedScene resolved_;
     fs::path gltf_;
     fs::path blender_;
+    std::vector<std::string> not_exported_;
     std::string scene_hash_;   // of the content
     std::string render_hash_;  // of what Blender's renders depend on
     RenderCache render_cache_;
     std::optional<ReferenceSet> references_;
+    std::optional<ReferenceSet> final_renders_;  // by the scene's own light paths
     std::vector<PreviewResult> previews_;
     std::optional<MotionLayers> motion_;
     std::vector<RenderedPoint> drawn_;

@@ -31,6 +31,22 @@ constexpr const char* k_sequence_columns =
     "tid_reference,tid_coverage,flicker_power,flicker_share";
 constexpr size_t k_sequence_figures = 10;
 
+constexpr const char* k_final_columns = ",final_relmse,final_flip_ldr,final_ssim,final_psnr_db,final_bias";
+constexpr size_t k_final_figures = 5;
+
+// Against the scene by its own light paths: in the mean's row alone as well.
+std::string final_csv(const CurvePoint& point) {
+    if (!point.final_errors) {
+        return std::string(k_final_figures, ',');
+    }
+    const FinalErrors& e = *point.final_errors;
+    std::string text;
+    for (const double value : {e.relmse, e.flip_ldr, e.ssim, e.psnr_db, e.bias}) {
+        text += "," + if_known(value);
+    }
+    return text;
+}
+
 std::string sequence_csv(const CurvePoint& point) {
     if (!point.sequence) {
         return std::string(k_sequence_figures, ',');
@@ -69,16 +85,19 @@ constexpr const char* k_columns =
 std::string results_csv(const Evaluation& evaluation) {
     std::string csv = k_columns;
     csv += k_sequence_columns;
+    csv += k_final_columns;
     csv += '\n';
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
             csv += fmt::format("\"{}\",\"{}\",mean{},,,,,{},{},{}{}\n", curve.name, point.label,
                                errors_csv(point), point.pareto, point.own_front,
-                               equal_error_csv(evaluation, curve.name, point.label), sequence_csv(point));
+                               equal_error_csv(evaluation, curve.name, point.label),
+                               sequence_csv(point) + final_csv(point));
             for (const FrameError& frame : point.frames) {
                 csv += fmt::format("\"{}\",\"{}\",{}{},{},{},{},{},,,,,{}\n", curve.name, point.label,
                                    frame.frame, errors_csv(frame), if_known(frame.max_abs), frame.max_x,
-                                   frame.max_y, frame.not_finite, std::string(k_sequence_figures, ','));
+                                   frame.max_y, frame.not_finite,
+                                   std::string(k_sequence_figures + k_final_figures, ','));
             }
         }
     }

@@ -189,6 +189,34 @@ TEST_F(EvaluateTest, BlenderIsToldWhatBounceShowsWhereAFileSaysNothing) {
     EXPECT_GT(job["defaults"]["world"]["strength"], 0.0);
 }
 
+// The scene's own light paths give 0.75 where Bounce's give 0.5: against it the reference is a third too
+// dark.
+TEST_F(EvaluateTest, TheFinalRenderIsASecondReference) {
+    EXPECT_FALSE(evaluate(options_).final_render);
+    test::write_constant(folder_ / "cycles_own.exr", 0.75F, 8, 4);
+    options_.final_render = true;
+    const Evaluation result = evaluate(options_);
+    ASSERT_TRUE(result.final_render);
+    ASSERT_EQ(result.final_render->references.size(), 2U);
+    EXPECT_EQ(result.final_render->references[1].frame, 24);
+    EXPECT_FLOAT_EQ(result.final_render->references[0].image.rgb[0], 0.75F);
+    EXPECT_NEAR(result.final_render->matched.bias, -1.0 / 3.0, 1e-6);
+    EXPECT_NEAR(result.final_render->matched.relmse, 0.0625 / (0.5625 + 0.01), 1e-6);
+    EXPECT_FLOAT_EQ(result.references[0].image.rgb[0], 0.5F) << "the matched one stays what it was";
+    const CurvePoint& point = result.curves[1].points[0];  // Bounce's pictures are 0.6
+    EXPECT_NEAR(point.bias, 0.2, 5e-4) << "pictures are written as halves";
+    ASSERT_TRUE(point.final_errors);
+    EXPECT_NEAR(point.final_errors->bias, -0.2, 5e-4);
+    EXPECT_NEAR(point.final_errors->relmse, 0.0225 / (0.5625 + 0.01), 1e-4);
+    const auto job = nlohmann::json::parse(blender_jobs().back());
+    EXPECT_TRUE(job.at("bounces").is_null());
+    const size_t before = blender_jobs().size();
+    EXPECT_TRUE(evaluate(options_).final_render->references[0].cached);
+    EXPECT_EQ(blender_jobs().size(), before) << "both references are kept, each under its own key";
+    write_report(result, folder_ / "report");
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "report/frames/final.0024.exr"));
+}
+
 TEST_F(EvaluateTest, LooksIntoTheFrames) {
     const Evaluation result = evaluate(options_);
     ASSERT_EQ(result.passes.size(), 3U);

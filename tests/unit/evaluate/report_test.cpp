@@ -141,6 +141,24 @@ TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
     EXPECT_EQ(mean.at("max_x"), "");
 }
 
+TEST(Results, HaveTheFinalRender) {
+    Evaluation evaluation = example();
+    EXPECT_TRUE(results_json(evaluation).at("final_render").is_null());
+    EXPECT_EQ(rows_of(results_csv(evaluation))[4].at("final_relmse"), "");
+    evaluation.final_render = FinalRender{evaluation.references, {0.25, 0.5, 0.75, 20.0, -0.125}};
+    evaluation.curves[1].points[0].final_errors = FinalErrors{0.5, 0.25, 0.875, 30.0, 0.0625};
+    const auto json = results_json(evaluation);
+    EXPECT_EQ(json["final_render"]["matched_reference"]["bias"], -0.125);
+    EXPECT_EQ(json["final_render"]["frames"].size(), 1U);
+    EXPECT_EQ(json["curves"][1]["points"][0]["final_render"]["flip_ldr"], 0.25);
+    const auto rows = rows_of(results_csv(evaluation));
+    EXPECT_EQ(rows[4].at("final_relmse"), "0.5");
+    EXPECT_EQ(rows[4].at("final_bias"), "0.0625");
+    EXPECT_EQ(rows[5].at("final_bias"), "") << "of the mean alone";
+    EXPECT_THAT(results_table(evaluation),
+                HasSubstr("the reference itself is off by relMSE 0.25, FLIP 0.5000, -12.50%"));
+}
+
 TEST(ResultsCsv, WhatIsNoNumberIsEmpty) {
     Evaluation evaluation = example();
     evaluation.curves[1].points[0].relmse = std::numeric_limits<double>::quiet_NaN();
