@@ -272,17 +272,17 @@ std::string results_table(const Evaluation& evaluation) {
                                  100.0 * point.bias, point.pareto ? "* " : "  ", equal);
         }
     }
-    if (!evaluation.given_reference.empty()) {
-        return table + fmt::format("* on the Pareto front. Reference: {}, noise floor {:.2g}.\n",
-                                   evaluation.given_reference,
-                                   mean_of(evaluation.references, &Reference::noise_floor));
-    }
     if (evaluation.final_render) {
         const FinalErrors& matched = evaluation.final_render->matched;
         table += fmt::format(
             "Against the scene by its own light paths the reference itself is off by relMSE {:.3g}, FLIP "
             "{:.4f}, {:+.2f}%.\n",
             matched.relmse, matched.flip_ldr, 100.0 * matched.bias);
+    }
+    if (!evaluation.given_reference.empty()) {
+        return table + fmt::format("* on the Pareto front. Reference: {}, noise floor {:.2g}.\n",
+                                   evaluation.given_reference,
+                                   mean_of(evaluation.references, &Reference::noise_floor));
     }
     table += fmt::format(
         "* on the Pareto front. Reference: Cycles {}, {}, {:.1f} s a frame, noise floor {:.2g}.\n",
