@@ -191,9 +191,10 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     }
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
-    if (plan.world_light) {
+    plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
+    if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
-    } else if (whole) {
+    } else if (!plan.world_light && whole) {
         plan.left_out.push_back({"world light", "the world is black"});
     }
     return plan;

@@ -29,7 +29,8 @@ struct FramePlan {
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;
-    bool world_light = false;
+    bool world_light = false;     // the world is not black
+    bool world_occluded = false;  // and stands as virtual point lights
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`

@@ -54,13 +54,31 @@ struct BouncedLights {
     bool slope_bias = false;            // the shadow maps' splats have one depth each
 };
 
+passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints& scene) {
+    return {.scene = scene,
+            .large_triangles = static_cast<int>(in.points->large_triangles()),
+            .splat = in.settings.splat,
+            .close = in.plan.close_maps,
+            .pull_push = {in.settings.pull_push, in.settings.pull_push_levels, in.settings.pull_threshold,
+                          in.settings.push_threshold}};
+}
+
+// The world's lights and their shadow maps, which are always drawn from disks.
+passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
+    passes::VplSet world = in.world;
+    world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    passes::IsmInputs inputs = ism_inputs(in, scene);
+    inputs.splat = passes::Splat::disks;
+    inputs.close = false;
+    world.atlas = add_ism(graph, in.context, inputs, world).atlas;
+    return world;
+}
+
 // Bounce by bounce: lights from what the bounce before reflects, and their shadow maps.
 BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
-                          const std::vector<passes::VplSource>& sources) {
+                          const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene) {
     using namespace passes;
     const PassContext& context = in.context;
-    const ScenePoints scene =
-        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
     BouncedLights lit;
     lit.slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks;
     for (size_t bounce = 0; bounce < in.bounces.size(); ++bounce) {
@@ -86,14 +104,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
         if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
             maps.atlas = add_classic_maps(graph, context, drawn.set);
         } else if (in.plan.occluded) {
-            maps = add_ism(graph, context,
-                           {.scene = scene,
-                            .large_triangles = static_cast<int>(in.points->large_triangles()),
-                            .splat = in.settings.splat,
-                            .close = in.plan.close_maps,
-                            .pull_push = {in.settings.pull_push, in.settings.pull_push_levels,
-                                          in.settings.pull_threshold, in.settings.push_threshold}},
-                           drawn.set);
+            maps = add_ism(graph, context, ism_inputs(in, scene), drawn.set);
         }
         drawn.set.atlas = maps.atlas;
         lit.sets.push_back(drawn.set);
@@ -104,12 +115,15 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
 
 // Light of all bounces at once.
 TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
-                                const std::vector<passes::VplSource>& sources, const BouncedLights& lit) {
+                                const std::vector<passes::VplSource>& sources, const BouncedLights& lit,
+                                const std::vector<passes::VplSet>& world) {
     using namespace passes;
     const PassContext& context = in.context;
+    std::vector<VplSet> sets = lit.sets;
+    sets.insert(sets.end(), world.begin(), world.end());
     const GatheredLight light = add_vpl_gather(graph, context,
                                                {.gbuffer = gbuffer,
-                                                .sets = lit.sets,
+                                                .sets = sets,
                                                 .slope_bias = lit.slope_bias,
                                                 .near_field = in.plan.near_field,
                                                 .glossy = in.plan.glossy,
@@ -125,7 +139,7 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
                                   .glossy = in.plan.glossy},
                                  light);
     }
-    const int interleave = lit.sets.front().interleave;
+    const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
         return bounced;
     }
@@ -233,17 +247,23 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     TextureHandle irradiance;
     TextureHandle bounced;
     BouncedLights lit;
+    const ScenePoints scene =
+        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
+    std::vector<VplSet> world;
+    if (in.plan.world_occluded) {
+        world.push_back(add_world(graph, in, scene));
+    }
     if (in.plan.vpls) {
         std::vector<VplSource> sources;
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
-        lit = add_bounces(graph, in, sources);
+        lit = add_bounces(graph, in, sources, scene);
         if (add_map_layer(graph, in, gbuffer, lit)) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            bounced = add_bounced_light(graph, in, gbuffer, sources, lit);
+            bounced = add_bounced_light(graph, in, gbuffer, sources, lit, world);
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
             const TextureHandle removed = add_removed(graph, in, gbuffer, lit);
@@ -273,13 +293,16 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         irradiance = add_rsm_gather(graph, context, gather);
     }
 
+    if (!in.plan.vpls && !world.empty()) {
+        bounced = add_bounced_light(graph, in, gbuffer, {}, lit, world);
+    }
     const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
     TextureHandle picture = add_composite(graph, context,
                                           {.gbuffer = gbuffer,
                                            .direct = direct,
                                            .irradiance = irradiance,
                                            .bounced = bounced,
-                                           .world_light = in.plan.world_light,
+                                           .world_light = in.plan.world_light && !in.plan.world_occluded,
                                            .emission = in.plan.emission && whole},
                                           in.plan.antialias ? TextureHandle{} : in.target);
     if (in.plan.antialias) {

@@ -15,6 +15,7 @@
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
+#include "renderer/world_lights.h"
 
 namespace bounce {
 namespace {
@@ -40,10 +41,10 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
 // give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
 // what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
 // itself.
-float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
+float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds, double world_irradiance) {
     const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
     const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box;
+    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box + world_irradiance;
     if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
         return 1.0F;
     }
@@ -56,7 +57,7 @@ constexpr int k_irsm_size = 32;
 
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
-    return plan.occluded && settings.visibility == Visibility::ism;
+    return plan.world_occluded || (plan.occluded && settings.visibility == Visibility::ism);
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
@@ -117,7 +118,8 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         // Pull-push takes every texel without a surface for a hole in one: it needs the walls behind, or it
         // spreads what stands before them.
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
-        const bool drop_hull = settings.drop_hull && !fills;
+        // What is on the hull hides no place of the scene from another, but the world from both.
+        const bool drop_hull = settings.drop_hull && !fills && !plan.world_occluded;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
         first.points_a_map = settings.ism_points > 0
                                  ? settings.ism_points
@@ -149,6 +151,7 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         }
     }
     if (needs_points) {
+        points_a_map_ = first.points_a_map;
         report.points = points_->occluders();
         report.points_a_map = plan.occluded ? first.points_a_map : 0;
         report.large_triangles = points_->large_triangles();
@@ -244,7 +247,10 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         fluxes.push_back(setup.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
-    const float scale = half_scale(fluxes, gpu_scene_.bounds());
+    const glm::vec3 radiance = pose.world.color * pose.world.strength;
+    const float scale = half_scale(
+        fluxes, gpu_scene_.bounds(),
+        plan.world_occluded ? std::numbers::pi * std::max({radiance.r, radiance.g, radiance.b}) : 0.0);
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples, scale));
     };
@@ -259,6 +265,16 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
     const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
+    passes::VplSet world;
+    if (plan.world_occluded) {
+        const IsmLayout layout = world_layout(settings, points_a_map_);
+        const std::vector<gpu::GpuVpl> made = world_lights(radiance, layout);
+        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        world = vpl_set(layout);
+        world.distant = true;
+        world.uniforms = uniforms_.add(ism_uniforms(layout, settings, points_->occluders(), 0.0));
+        report.vpls += layout.vpls;
+    }
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -293,6 +309,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .patterns = patterns,
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
                     .bounces = bounces,
+                    .world = world,
+                    .world_lights = &world_lights_,
                     .previous = previous_frame,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,

@@ -90,6 +90,8 @@ class Renderer {
     gl::Texture color_;
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
+    gl::Buffer world_lights_;
+    int points_a_map_ = 0;  // of this frame's shadow maps
 };
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.

@@ -7,13 +7,25 @@
 //                 64ths, 8 bits each
 // A plane's 1/distance is linear in the map to first order, so a receiver is compared with the surface where its own
 // ray meets it: a surface does not hide itself, however steep it stands, and nothing leaks at its foot.
+//
+// DISTANT: maps of lights at infinity, orthographic along the light's way around the scene. A texel:
+//   high 16 bits  depth of the nearest surface at the texel's centre along that way, over the scene
+//   low 16 bits   how it changes by a step of one texel along s and t, over the texel's width, in 16ths, 8 bits each
+// A plane's depth is linear in the map, so the comparison is exact.
 #ifndef LIB_ISM
 #define LIB_ISM
 
 #include "lib/paraboloid.glsl"
 #include "lib/vpl.glsl"
 
+#ifdef DISTANT
+const uint ISM_EMPTY = 0xffff0000u;
+#else
 const uint ISM_EMPTY = 0x7bff0000u;  // the largest finite half
+#endif
+
+// Half the width and depth of a distant light's map, in render units: the scene's diagonal is 1.
+const float DISTANT_REACH = 0.505;
 
 // A plane nearer to a light than this, in render units (the scene's diagonal is 1), is the light's own surface.
 const float LEAST_PLANE_DISTANCE = 1e-4;
@@ -45,6 +57,22 @@ bool ism_lit(uint bits, float distance, vec2 from_center) {
     float nearest = unpackHalf2x16(bits).y;
     vec2 slope = vec2(int(bits << 24) >> 24, int(bits << 16) >> 24) / 64.0;
     return distance * (1.0 + dot(slope, from_center)) <= nearest;
+}
+
+// As pack_ism() and ism_lit(), of distant lights. depth: along the light's way from the scene's middle, render units;
+// slope: its derivatives along s and t; size: texels a side of the map.
+uint pack_distant(float depth, vec2 slope, float size) {
+    float texel_size = 2.0 * DISTANT_REACH / size;
+    // What rounding may take: half a step of each slope at a texel's corner.
+    float kept = (depth + texel_size / 32.0) / (2.0 * DISTANT_REACH) + 0.5;
+    ivec2 steps = ivec2(clamp(round(slope * 16.0), -127.0, 127.0));
+    return uint(clamp(ceil(kept * 65535.0), 0.0, 65534.0)) << 16 | uint(steps.x & 0xff) | uint(steps.y & 0xff) << 8;
+}
+
+bool distant_lit(uint bits, float depth, vec2 from_center, float size) {
+    vec2 slope = vec2(int(bits << 24) >> 24, int(bits << 16) >> 24) / 16.0;
+    float nearest = (float(bits >> 16) / 65535.0 - 0.5) * (2.0 * DISTANT_REACH);
+    return depth <= nearest + dot(slope, from_center) * (2.0 * DISTANT_REACH / size);
 }
 
 ivec2 ism_origin(int map) {
