@@ -192,6 +192,10 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
     plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
+    plan.world_bounces =
+        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
+            ? settings.bounces
+            : 0;
     if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
     } else if (!plan.world_light && whole) {

@@ -31,6 +31,7 @@ struct FramePlan {
     bool emission = false;
     bool world_light = false;     // the world is not black
     bool world_occluded = false;  // and stands as virtual point lights
+    int world_bounces = 0;        // of its light
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`

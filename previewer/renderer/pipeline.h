@@ -30,8 +30,9 @@ struct PipelineInputs {
     std::vector<const gl::Buffer*> patterns;             // each light's
     gpu::PointStore* points = nullptr;                   // where the plan needs them
     std::vector<Bounce> bounces;                         // plan.bounces of them
-    passes::VplSet world;                                // where plan.world_occluded; its buffer is world_lights
+    Bounce world;                                        // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
+    std::vector<Bounce> world_bounces;                   // plan.world_bounces of them
     passes::PreviousFrame previous;                      // where the plan shows motion
     TextureHandle target;
     // Filled where they are there, each for a wait.

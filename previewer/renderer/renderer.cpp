@@ -61,7 +61,7 @@ bool splats_points(const FramePlan& plan, const Settings& settings) {
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1;
+    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0;
 }
 
 passes::VplSet vpl_set(const IsmLayout& layout) {
@@ -101,7 +101,7 @@ void require_fitting_sums(const Settings& settings, int points_a_map, int bounce
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
 
-std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
+Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
                                               FramePlan& plan, FrameReport& report) {
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
@@ -130,7 +130,9 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
         counts.occluders = splats ? points_in_all(first) : 0;
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
-        counts.reflectors = plan.bounces > 1 ? points_in_all(irsm) : 0;
+        IsmLayout most = irsm;
+        most.vpls = std::max(most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0);
+        counts.reflectors = plan.bounces > 1 || plan.world_bounces > 0 ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
         points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull);
         mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
@@ -144,14 +146,14 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
                     "there are no shadow maps to show: nothing stands between two places of the scene");
             }
         }
-        if (plan.bounces > 1 && points_->reflectors() == 0) {
-            plan.bounces = 1;
+        if ((plan.bounces > 1 || plan.world_bounces > 0) && points_->reflectors() == 0) {
+            plan.bounces = std::min(plan.bounces, 1);
+            plan.world_bounces = 0;
             plan.left_out.push_back({"further bounces", "no surface has an area, so none has a point"});
             plan.notes.emplace_back("no further bounces: no surface has an area");
         }
     }
     if (needs_points) {
-        points_a_map_ = first.points_a_map;
         report.points = points_->occluders();
         report.points_a_map = plan.occluded ? first.points_a_map : 0;
         report.large_triangles = points_->large_triangles();
@@ -161,21 +163,38 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         report.atlas_width = first.atlas_width();
         report.atlas_height = first.atlas_height();
     }
-    std::vector<Bounce> out;
-    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
-        const IsmLayout layout = ism_layout(settings, bounce, first.points_a_map);
-        Bounce& added = out.emplace_back();
-        added.lights = vpl_set(layout);
-        report.vpls += layout.vpls;
-        const size_t occluders = needs_points ? points_->occluders() : 0;
-        added.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
+    const size_t occluders = needs_points ? points_->occluders() : 0;
+    const size_t reflectors = needs_points ? points_->reflectors() : 0;
+    const auto make_bounce = [&](const IsmLayout& layout) {
+        Bounce bounce;
+        bounce.lights = vpl_set(layout);
+        bounce.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
         IsmLayout maps = layout;
         maps.map_size = irsm.map_size;
         maps.points_a_map = irsm.points_a_map;
         maps.shadow_map_size = layout.map_size;
-        added.irsms = vpl_set(maps);
-        added.irsms.uniforms = uniforms_.add(
-            irsm_uniforms(maps, settings, needs_points ? points_->reflectors() : 0, occluders, mean_radius));
+        bounce.irsms = vpl_set(maps);
+        bounce.irsms.uniforms =
+            uniforms_.add(irsm_uniforms(maps, settings, reflectors, occluders, mean_radius));
+        report.vpls += layout.vpls;
+        return bounce;
+    };
+    LitBounces out;
+    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
+        out.bounces.push_back(make_bounce(ism_layout(settings, bounce, first.points_a_map)));
+    }
+    if (plan.world_occluded) {
+        const IsmLayout layout = world_layout(settings, first.points_a_map);
+        const std::vector<gpu::GpuVpl> made = world_lights(pose.world.color * pose.world.strength, layout);
+        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        Settings disks = settings;
+        disks.splat = passes::Splat::disks;
+        out.world = make_bounce(layout);
+        out.world.lights.distant = true;
+        out.world.lights.uniforms = uniforms_.add(ism_uniforms(layout, disks, occluders, mean_radius));
+    }
+    for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
+        out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map)));
     }
     return out;
 }
@@ -264,17 +283,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
-    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
-    passes::VplSet world;
-    if (plan.world_occluded) {
-        const IsmLayout layout = world_layout(settings, points_a_map_);
-        const std::vector<gpu::GpuVpl> made = world_lights(radiance, layout);
-        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
-        world = vpl_set(layout);
-        world.distant = true;
-        world.uniforms = uniforms_.add(ism_uniforms(layout, settings, points_->occluders(), 0.0));
-        report.vpls += layout.vpls;
-    }
+    const LitBounces bounces = prepare_bounces(pose, settings, plan, report);
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -308,9 +317,10 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .gather_frames = gather_frames,
                     .patterns = patterns,
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
-                    .bounces = bounces,
-                    .world = world,
+                    .bounces = bounces.bounces,
+                    .world = bounces.world,
                     .world_lights = &world_lights_,
+                    .world_bounces = bounces.world_bounces,
                     .previous = previous_frame,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
