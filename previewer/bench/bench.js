@@ -161,8 +161,11 @@
       const line = body.insertRow();
       row.forEach((cell, index) => {
         const data = line.insertCell();
-        data.className = kind(index);
-        data.textContent = shown(cell, index);
+        const text = shown(cell, index);
+        const parts = text.split(", ");
+        const list = parts.length > 2;  // takes a line more between its parts, where there is no room
+        data.className = kind(index) + (list ? " list" : "");
+        data.textContent = list ? parts.map((part) => part.replaceAll(" ", "\u00a0")).join(", ") : text;
       });
     }
     scroll.append(made);

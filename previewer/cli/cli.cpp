@@ -6,6 +6,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 
 namespace bounce::cli {
@@ -48,6 +49,9 @@ int run(int argc, char** argv) {
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
         log::error("out of memory; try a smaller --size or scene");
+        return static_cast<int>(ExitCode::failed);
+    } catch (const nlohmann::json::exception& error) {
+        log::error("unexpected failure, which is a defect of bounce: of a JSON text, {}", json_fault(error));
         return static_cast<int>(ExitCode::failed);
     } catch (const std::exception& error) {
         log::error("unexpected failure, which is a defect of bounce: {}", error.what());

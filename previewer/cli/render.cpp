@@ -16,6 +16,7 @@
 #include "core/interrupt.h"
 #include "core/log.h"
 #include "core/progress.h"
+#include "core/stopwatch.h"
 #include "gl/context.h"
 #include "renderer/renderer.h"
 #include "scene/pose.h"
@@ -54,26 +55,33 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
 }
 
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
-// before: the frame before, where the layer needs it.
+// before: the frame before, where the layer needs it. first_ms: of the very first rendering, where this is
+// the first frame.
 FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* before,
                          const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device,
-                         bool first) {
+                         double* first_ms) {
+    const bool first = first_ms != nullptr;
     FrameStats stats;
     const auto once = [&](gl::TimingMode mode, const Settings& with) {
         glFinish();
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch rendering;
         FrameReport report = renderer.render(now.pose, now.camera, with, mode, before);
         glFinish();
-        const double ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        return std::pair(std::move(report), ms);
+        return std::pair(std::move(report), rendering.ms());
     };
     // What is missing from the picture is found out once, by reading back, which no timed rendering does.
     Settings finding = settings;
     finding.find_unlit = first;
     // Times are of steady state: shaders are compiled and textures made by a rendering that is not counted.
     const bool warm_up = arguments.repeat > 1 || (first && !arguments.stats.empty());
-    FrameReport found = warm_up ? once(gl::TimingMode::off, finding).first : FrameReport{};
+    FrameReport found;
+    if (warm_up) {
+        auto [report, ms] = once(gl::TimingMode::off, finding);
+        found = std::move(report);
+        if (first) {
+            *first_ms = ms;
+        }
+    }
     for (int i = 0; i < arguments.repeat; ++i) {
         auto [report, ms] = once(gl::TimingMode::off, warm_up ? settings : finding);
         stats.report = std::move(report);
@@ -102,13 +110,15 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
 }
 
 ExitCode render(const CLI::App& command, Arguments arguments) {
+    const Stopwatch run;
     arguments.render = with_tuning(command, arguments.render);
     arguments.render.check();
     if (arguments.removed && (arguments.stats.empty() || !arguments.pass_times)) {
         throw usage_error(
             "--measure-removed writes to --stats, with pass times: give --stats and no --no-pass-times");
     }
-    const scene::LoadResult loaded = load_scene(arguments.scene, arguments.source);
+    StartTimes start;
+    const scene::LoadResult loaded = load_scene(arguments.scene, arguments.source, &start.load_ms);
     for (const std::string& warning : loaded.warnings) {
         log::warning("{}", warning);
     }
@@ -128,11 +138,16 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         require_writable(arguments.stats);
     }
 
+    const Stopwatch opening;
     const gl::HeadlessContext context;
     const gl::DeviceInfo device = gl::initialise_current_context();
+    start.context_ms = opening.ms();
     log::debug("OpenGL {} on {}", device.version, device.renderer);
     require_within(device.limits, settings);
+    const Stopwatch uploading;
     Renderer renderer(scene);
+    glFinish();
+    start.upload_ms = uploading.ms();
     const FrameWriter writer(scene, settings);
     StatsFile stats(arguments.scene, device, settings);
     Progress progress("render", static_cast<int>(frames.size()));
@@ -152,8 +167,9 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
             before.emplace(Moment{*pose_before, scene_camera(scene, *pose_before, arguments.render.camera,
                                                              settings.width, settings.height)});
         }
-        FrameStats measured = measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings,
-                                            arguments, device, frame == frames.front());
+        FrameStats measured =
+            measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
+                          frame == frames.front() ? &start.first_frame_ms : nullptr);
         measured.frame = frame;
         measured.time_s = time_s;
         const Image image = renderer.read_color();
@@ -173,6 +189,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         stats.add(std::move(measured));
     }
     if (!arguments.stats.empty()) {
+        stats.start(start, run);
         stats.write(arguments.stats);
     }
     return ExitCode::done;

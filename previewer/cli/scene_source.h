@@ -14,9 +14,9 @@ namespace bounce::cli {
 // the user named. The options must live as long as the app.
 void add_scene_source_options(CLI::App& command, SceneSourceOptions& options);
 
-// Loads the scene the user named; a .blend is exported first. Throws what resolve_scene() and
-// scene::load_gltf() throw.
+// Loads the scene the user named; a .blend is exported first. load_ms, where given, is the time of loading
+// without the export. Throws what resolve_scene() and scene::load_gltf() throw.
 [[nodiscard]] scene::LoadResult load_scene(const std::filesystem::path& scene,
-                                           const SceneSourceOptions& options);
+                                           const SceneSourceOptions& options, double* load_ms = nullptr);
 
 }  // namespace bounce::cli

@@ -13,6 +13,7 @@
 
 #include "cli/frame_list.h"
 #include "core/error.h"
+#include "image/sequence_metrics.h"
 
 namespace bounce::cli {
 namespace fs = std::filesystem;
@@ -40,11 +41,9 @@ void require_even(const std::vector<int>& frames, const std::string& given) {
         throw usage_error(
             fmt::format("--frames {} is one frame; name its two files without # to compare them", given));
     }
-    for (size_t i = 1; i < frames.size(); ++i) {
-        if (frames[i] <= frames[i - 1] || frames[i] - frames[i - 1] != frames[1] - frames[0]) {
-            throw usage_error(fmt::format(
-                "--frames {}: a sequence runs forwards at one step, as 1-48 or 1-48x2 do", given));
-        }
+    if (even_step(frames) == 0) {
+        throw usage_error(
+            fmt::format("--frames {}: a sequence runs forwards at one step, as 1-48 or 1-48x2 do", given));
     }
 }
 

@@ -155,6 +155,10 @@ void StatsFile::write(const std::filesystem::path& path) const {
                  {"renderer", device_.renderer},
                  {"version", device_.version},
                  {"timing", device_.software ? "finish" : "query"}};
+    out["startup"] = {{"context_ms", start_.context_ms},
+                      {"load_ms", start_.load_ms},
+                      {"upload_ms", start_.upload_ms},
+                      {"first_frame_ms", start_.first_frame_ms}};
     out["settings"] = settings_json(settings_);
     out["frames"] = ordered_json::array();
     for (const FrameStats& frame : frames_) {
@@ -167,7 +171,9 @@ void StatsFile::write(const std::filesystem::path& path) const {
     out["counts"] = counts_json(last);
     out["memory"] = {{"gl_peak_bytes", gl::peak_allocated_bytes()},
                      {"rss_peak_bytes", peak_resident_bytes()}};
-    write_text_file(path, out.dump(2) + "\n");
+    out["run_ms"] = run_.ms();
+    // A file's name may be no UTF-8.
+    write_text_file(path, out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace bounce::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "gl/context.h"
 #include "renderer/renderer.h"
 
@@ -20,11 +21,24 @@ struct FrameStats {
     [[nodiscard]] double wall_ms() const;  // their median
 };
 
+// What comes before the frames, once a run.
+struct StartTimes {
+    double context_ms = 0.0;      // the OpenGL context and its functions
+    double load_ms = 0.0;         // the glTF file: reading, decoding, pictures; no export of a .blend
+    double upload_ms = 0.0;       // the scene to OpenGL
+    double first_frame_ms = 0.0;  // the first rendering, with shaders compiled and points made
+};
+
 // stats.json, schema bounce.stats/1 (docs/architecture.md).
 class StatsFile {
   public:
     StatsFile(std::string scene, gl::DeviceInfo device, const Settings& settings)
         : scene_(std::move(scene)), device_(std::move(device)), settings_(settings) {}
+    // run: since the command began; written as it stands then.
+    void start(const StartTimes& times, const Stopwatch& run) {
+        start_ = times;
+        run_ = run;
+    }
     void add(FrameStats frame) { frames_.push_back(std::move(frame)); }
     // Atomically. Throws output_error.
     void write(const std::filesystem::path& path) const;
@@ -33,6 +47,8 @@ class StatsFile {
     std::string scene_;
     gl::DeviceInfo device_;
     Settings settings_;
+    StartTimes start_;
+    Stopwatch run_;
     std::vector<FrameStats> frames_;
 };
 

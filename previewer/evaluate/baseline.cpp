@@ -9,6 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/json_fault.h"
+#include "evaluate/record_file.h"
 
 namespace bounce {
 namespace {
@@ -38,7 +40,8 @@ std::map<std::string, Tolerance> parse_tolerances(const nlohmann::json& json,
                                              "and bias",
                                              name));
         }
-        const Tolerance tolerance{item.at("relative"), item.at("absolute"), item.at("reason")};
+        const Tolerance tolerance{member<double>(item, "relative"), member<double>(item, "absolute"),
+                                  member<std::string>(item, "reason")};
         // Negated, so that NaN is refused too.
         if (!(tolerance.relative >= 0.0) || !(tolerance.absolute >= 0.0) || tolerance.reason.empty()) {
             throw unusable(
@@ -53,7 +56,7 @@ BaselinePoint parse_point(const nlohmann::json& item, const std::string& curve,
                           const std::filesystem::path& path) {
     BaselinePoint point;
     point.curve = curve;
-    point.label = item.at("label");
+    point.label = member<std::string>(item, "label");
     for (const NamedError& error : k_errors) {
         const auto& value = item.at(error.name);
         if (!value.is_number()) {
@@ -65,12 +68,12 @@ BaselinePoint parse_point(const nlohmann::json& item, const std::string& curve,
 }
 
 std::vector<int> frames_of(const nlohmann::json& json) {
-    return json.at("frames").get<std::vector<int>>();
+    return member<std::vector<int>>(json, "frames");
 }
 
 // results.json has the bounces beside the reference.
 int bounces_of(const nlohmann::json& json) {
-    return json.contains("bounces") ? json["bounces"] : json.at("reference").at("bounces");
+    return member<int>(json.contains("bounces") ? json : json.at("reference"), "bounces");
 }
 
 void compare_point(const Baseline& baseline, const BaselinePoint& before, const CurvePoint& now,
@@ -155,21 +158,21 @@ Baseline read_baseline(const std::filesystem::path& path) {
     }
     try {
         Baseline baseline;
-        baseline.conditions.scene = json.at("scene");
+        baseline.conditions.scene = member<std::string>(json, "scene");
         baseline.scene_sha256 = json.value("scene_sha256", "");
-        baseline.conditions.width = json.at("width");
-        baseline.conditions.height = json.at("height");
+        baseline.conditions.width = member<int>(json, "width");
+        baseline.conditions.height = member<int>(json, "height");
         baseline.conditions.frames = frames_of(json);
         baseline.conditions.bounces = bounces_of(json);
         baseline.tolerances = parse_tolerances(json.value("tolerances", nlohmann::json::object()), path);
-        for (const auto& curve : json.at("curves")) {
-            for (const auto& item : curve.at("points")) {
-                baseline.points.push_back(parse_point(item, curve.at("name"), path));
+        for (const auto& curve : list_member(json, "curves")) {
+            for (const auto& item : list_member(curve, "points")) {
+                baseline.points.push_back(parse_point(item, member<std::string>(curve, "name"), path));
             }
         }
         return baseline;
     } catch (const nlohmann::json::exception& error) {
-        throw unusable(path, error.what());
+        throw unusable(path, json_fault(error));
     }
 }
 

@@ -64,6 +64,9 @@ struct BaselineReport {
     std::vector<std::string> missing;      // "curve, label": in the baseline, not in the run
     std::vector<std::string> added;        // in the run, not in the baseline
     size_t compared = 0;                   // points in both
+
+    // A point that is missing is as bad as a risen error: nobody knows what it would have been.
+    [[nodiscard]] bool passed() const { return regressions.empty() && missing.empty(); }
 };
 
 // Compares relMSE, FLIP and the magnitude of the bias of every point that is in both. A point with a value

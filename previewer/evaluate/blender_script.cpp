@@ -7,6 +7,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "core/process.h"
 #include "evaluate/blender_export.h"
@@ -79,7 +80,7 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
                 on_event(kind, event);
             }
         } catch (const json::exception& exception) {
-            reason = fmt::format("what Blender told cannot be read ({})", exception.what());
+            reason = fmt::format("what Blender told cannot be read: {}", json_fault(exception));
         } catch (const Error& exception) {
             reason = exception.what();  // Blender is let end first
             error = exception;

@@ -4,29 +4,37 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace bounce {
+
+double mean_of_frames(const std::vector<FrameError>& frames, double FrameError::*figure) {
+    double sum = 0.0;
+    for (const FrameError& frame : frames) {
+        sum += frame.*figure;
+    }
+    return sum / static_cast<double>(frames.size());
+}
 
 CurvePoint make_point(std::string label, std::vector<FrameError> frames) {
     assert(!frames.empty());
     CurvePoint point;
     point.label = std::move(label);
-    point.seconds_least = point.seconds_most = 0.0;
-    for (const FrameError& frame : frames) {
-        point.seconds += frame.seconds;
-        point.relmse += frame.relmse;
-        point.flip_ldr += frame.flip_ldr;
-        point.bias += frame.bias;
-        point.seconds_least += frame.seconds_least;
-        point.seconds_most += frame.seconds_most;
+    const std::pair<double CurvePoint::*, double FrameError::*> means[]{
+        {&CurvePoint::seconds, &FrameError::seconds},
+        {&CurvePoint::relmse, &FrameError::relmse},
+        {&CurvePoint::relmse_exposed, &FrameError::relmse_exposed},
+        {&CurvePoint::flip_ldr, &FrameError::flip_ldr},
+        {&CurvePoint::ssim, &FrameError::ssim},
+        {&CurvePoint::psnr_db, &FrameError::psnr_db},
+        {&CurvePoint::bias, &FrameError::bias},
+        {&CurvePoint::flip_hdr, &FrameError::flip_hdr},
+        {&CurvePoint::seconds_least, &FrameError::seconds_least},
+        {&CurvePoint::seconds_most, &FrameError::seconds_most},
+    };
+    for (const auto& [mean, figure] : means) {
+        point.*mean = mean_of_frames(frames, figure);
     }
-    const auto count = static_cast<double>(frames.size());
-    point.seconds /= count;
-    point.relmse /= count;
-    point.flip_ldr /= count;
-    point.bias /= count;
-    point.seconds_least /= count;
-    point.seconds_most /= count;
     point.frames = std::move(frames);
     return point;
 }
@@ -70,6 +78,18 @@ void mark_pareto(std::vector<Curve>& curves) {
     };
     mark(all, &CurvePoint::pareto);
     mark(own, &CurvePoint::own_front);
+}
+
+std::string equal_error_name(EqualErrorKind kind) {
+    switch (kind) {
+        case EqualErrorKind::interpolated:
+            return "interpolated";
+        case EqualErrorKind::extrapolated:
+            return "extrapolated";
+        case EqualErrorKind::fastest_point:
+            return "fastest_point";
+    }
+    return {};
 }
 
 std::optional<EqualError> time_at_error(std::vector<std::pair<double, double>> ladder, double error) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "image/sequence_metrics.h"
+
 namespace bounce {
 
 // One frame rendered one way, against its reference.
@@ -29,6 +31,8 @@ struct FrameError {
     int max_x = 0;
     int max_y = 0;
     size_t not_finite = 0;
+    // Filled in later, and not for every point (hdr_flip_of_points.h); NaN where it is left out.
+    double flip_hdr = std::numeric_limits<double>::quiet_NaN();
     // Fastest and slowest of the repeated renders; NaN where only one time is known.
     double seconds_least = std::numeric_limits<double>::quiet_NaN();
     double seconds_most = std::numeric_limits<double>::quiet_NaN();
@@ -41,8 +45,13 @@ struct CurvePoint {
     double setup_seconds = 0.0;    // of these, before the first sample; 0 where not told apart
     double startup_seconds = 0.0;  // once a run, not part of seconds
     double relmse = 0.0;
+    double relmse_exposed = 0.0;
     double flip_ldr = 0.0;
+    double ssim = 0.0;
+    double psnr_db = 0.0;  // mean of the frames' decibels
     double bias = 0.0;
+    double flip_hdr = std::numeric_limits<double>::quiet_NaN();  // NaN where a frame has none
+    std::optional<SequenceMetrics> sequence;  // where the frames are one; its errors are those of frames
     bool pareto = false;
     size_t rss_peak_bytes = 0;  // of the process; 0 where not known
     size_t gl_peak_bytes = 0;   // of buffers and textures in OpenGL; 0 where not known
@@ -62,6 +71,9 @@ struct Curve {
     bool peer = false;  // another engine than Bounce and the reference's
 };
 
+// Arithmetic mean of a figure over the frames, of which there is at least one.
+[[nodiscard]] double mean_of_frames(const std::vector<FrameError>& frames, double FrameError::*figure);
+
 // A point from its frames: arithmetic means. Needs at least one frame.
 [[nodiscard]] CurvePoint make_point(std::string label, std::vector<FrameError> frames);
 
@@ -77,6 +89,9 @@ enum class EqualErrorKind {
     extrapolated,   // beyond its most exact point, along the slope of its last segment
     fastest_point,  // the ladder's fastest point is already at least as exact
 };
+
+// As results.json and results.csv call it.
+[[nodiscard]] std::string equal_error_name(EqualErrorKind kind);
 
 struct EqualError {
     double seconds = 0.0;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "evaluate/picture_room.h"
 #include "image/image_io.h"
@@ -74,8 +75,8 @@ CyclesReport run_cycles_cached(
                 }
                 continue;
             } catch (const json::exception& error) {
-                log::warning("a kept picture of Cycles is rendered again: its record is damaged ({})",
-                             error.what());
+                log::warning("a kept picture of Cycles is rendered again: its record is damaged: {}",
+                             json_fault(error));
             }
         }
         missing.renders.push_back(render);

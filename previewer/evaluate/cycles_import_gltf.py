@@ -127,6 +127,20 @@ class Imported:
         self.lights = {}
         self.make_lights()
 
+    def camera_of(self, index):
+        """The camera that the importer made of a node: of its name, or below it where the node has a mesh as well; of
+        nodes without a name, which all get one name and a number, by their order."""
+        found = self.objects.get(index)
+        cameras = [item for item in ([found, *found.children] if found else []) if item.type == "CAMERA"]
+        if not cameras:
+            nodes = [i for i, node in enumerate(self.document.get("nodes", [])) if "camera" in node]
+            made = sorted((o for o in self.scene.objects if o.type == "CAMERA"), key=lambda o: o.name)
+            named = index in nodes and self.document["nodes"][index].get("name")
+            if index not in nodes or len(made) != len(nodes) or (named and len(nodes) > 1):
+                raise ValueError(f"the importer made no camera that is node {index}'s: is its name that of another node?")
+            cameras = [made[nodes.index(index)]]
+        return cameras[0]
+
     def make_lights(self):
         for index, node in enumerate(self.document.get("nodes", [])):
             if "light" not in extension(node):
@@ -299,9 +313,9 @@ def choose_camera(scene, root, defaults, imported):
     if imported.framing:
         scene.camera = bpy.data.objects.new("Framing", bpy.data.cameras.new("Framing"))
         scene.collection.objects.link(scene.camera)
+        scene.render.pixel_aspect_x = scene.render.pixel_aspect_y = 1  # framed for square pixels
         return
-    node = root.get("camera", defaults.get("camera_node"))
-    scene.camera = imported.objects.get(node) or next((o for o in scene.objects if o.type == "CAMERA"), None)
+    scene.camera = imported.camera_of(defaults.get("camera_node", root.get("camera")))
 
 
 def set_scene(scene, root, imported):

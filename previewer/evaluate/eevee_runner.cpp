@@ -56,10 +56,6 @@ class EeveeRun {
         if (!frames.empty()) {
             render(frames);
         }
-        for (PeerPoint& point : result_.points) {
-            std::sort(point.frames.begin(), point.frames.end(),
-                      [](const PeerFrame& a, const PeerFrame& b) { return a.frame < b.frame; });
-        }
     }
 
   private:

@@ -18,6 +18,7 @@ namespace bounce::embedded {
 [[nodiscard]] std::string_view report_chart_js();
 [[nodiscard]] std::string_view report_frame_js();
 [[nodiscard]] std::string_view report_frames_js();
+[[nodiscard]] std::string_view report_sequence_js();
 [[nodiscard]] std::string_view report_viewer_js();
 [[nodiscard]] std::string_view report_css();
 [[nodiscard]] std::string_view chart_notice_txt();

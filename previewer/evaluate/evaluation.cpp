@@ -14,6 +14,10 @@
 #include "evaluate/cache.h"
 #include "evaluate/cycles_cache.h"
 #include "evaluate/draco_check.h"
+#include "evaluate/engine_starts.h"
+#include "evaluate/hdr_flip_of_points.h"
+#include "evaluate/motion_layers.h"
+#include "evaluate/point_meter.h"
 #include "evaluate/reference_set.h"
 #include "evaluate/report.h"
 #include "evaluate/scene_defaults.h"
@@ -24,6 +28,7 @@
 #include "evaluate/stored_runs.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
+#include "image/sequence_metrics.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -37,46 +42,19 @@ constexpr size_t k_most_pass_runs = 16;
 // Each is a rendering with and one without the passes timed.
 constexpr int k_most_pass_repeats = 3;
 
-FrameError measure(int frame, double seconds, const Image& image, const Image& reference) {
-    const Metrics metrics = compare(image, reference, HdrFlip::leave_out);
-    if (metrics.nan + metrics.inf > 0) {
-        log::warning("frame {}: {} values are NaN and {} infinite, so its errors are not numbers", frame,
-                     metrics.nan, metrics.inf);
-    }
-    FrameError error;
-    error.frame = frame;
-    error.seconds = seconds;
-    error.relmse = metrics.relmse;
-    error.relmse_exposed = metrics.relmse_exposed;
-    error.flip_ldr = metrics.flip_ldr;
-    error.ssim = metrics.ssim;
-    error.psnr_db = metrics.psnr_db;
-    error.bias = metrics.bias;
-    error.nrmse = metrics.nrmse;
-    error.smape = metrics.smape;
-    error.bias_rgb = metrics.bias_rgb;
-    error.max_abs = metrics.max_abs;
-    error.max_x = metrics.max_abs_x;
-    error.max_y = metrics.max_abs_y;
-    error.not_finite = metrics.nan + metrics.inf;
-    return error;
+// Of the scene's content: the file with those that a glTF refers to. Those of a .blend Blender tells, and the
+// caches keep their hashes.
+std::string hash_of_content(const fs::path& scene) {
+    const bool alone = scene.extension() == ".blend" || gltf_external_files(scene).empty();
+    return alone ? sha256_of_file(scene) : sha256_of_gltf(scene);
 }
 
-// Fastest and slowest of several renders; of one alone there is no spread.
-void set_spread(FrameError& error, const std::vector<double>& all_seconds) {
-    if (all_seconds.size() > 1) {
-        const auto [least, most] = std::minmax_element(all_seconds.begin(), all_seconds.end());
-        error.seconds_least = *least;
-        error.seconds_most = *most;
-    }
-}
-
-// What Blender's renders depend on beside frame and size, which every key has: the file, and how Bounce shows
-// it where it says nothing.
-std::string hash_of_scene(const fs::path& scene) {
-    const std::string file = sha256_of_file(scene);
+// What Blender's renders depend on beside frame and size, which every key has: the content, and how Bounce
+// shows it where it says nothing.
+std::string hash_for_renders(const fs::path& scene) {
+    const std::string content = hash_of_content(scene);
     const auto defaults = scene_defaults(scene, {1}, 16, 9);
-    return defaults.is_null() ? file : sha256_of_text(file + defaults.dump());
+    return defaults.is_null() ? content : sha256_of_text(content + defaults.dump());
 }
 
 class Evaluator {
@@ -85,7 +63,8 @@ class Evaluator {
         : options_(options),
           resolved_(resolve_scene(options.scene, options.source)),
           gltf_(resolved_.gltf),
-          scene_hash_(hash_of_scene(options.scene)),
+          scene_hash_(hash_of_content(options.scene)),
+          render_hash_(hash_for_renders(options.scene)),
           render_cache_(cache_folder() / "renders", options.width, options.height) {
         result_.scene_sha256 = sha256_of_gltf(gltf_);
         if (needs_cycles() || !options.peers.empty()) {
@@ -113,9 +92,13 @@ class Evaluator {
             render_ladder();
         }
         render_references();
+        motion_.emplace(options_.bounce, gltf_, options_.frames, options_.width, options_.height,
+                        scratch_ / "motion");
         measure_cycles();
         measure_peers();
         measure_previews();
+        fill_hdr_flip(result_, drawn_);
+        keep_shown_pictures();
         measure_pass_times();
         describe();
         return std::move(result_);
@@ -129,7 +112,7 @@ class Evaluator {
     [[nodiscard]] ReferenceSet::Source reference_source() const {
         return {options_.scene,  scene_hash_,      options_.frames,    options_.width,
                 options_.height, options_.bounces, options_.reference, options_.given_reference,
-                blender_,        result_.blender};
+                blender_,        result_.blender,  render_hash_};
     }
 
     void render_references() {
@@ -202,55 +185,71 @@ class Evaluator {
                              [&](const auto& render) { return render.frame == frame && render.spp == spp; });
     }
 
+    // A point of the last curve.
+    CurvePoint& add_point(const std::string& label, std::vector<RenderedFrame> frames) {
+        Curve& curve = result_.curves.back();
+        const ReferenceImage reference = [this](int frame) -> const Image& {
+            return references_->at(frame).image;
+        };
+        curve.points.push_back(measure_point(label, frames, reference, *motion_));
+        drawn_.push_back({result_.curves.size() - 1, curve.points.size() - 1, std::move(frames)});
+        return curve.points.back();
+    }
+
+    // Of a sweep of an animation all of them would not fit into memory.
+    void keep_shown_pictures() {
+        const auto shown = shown_points(result_);
+        for (const RenderedPoint& drawn : drawn_) {
+            const Curve& curve = result_.curves[drawn.curve];
+            const std::string& label = curve.points[drawn.point].label;
+            if (std::find(shown.begin(), shown.end(), std::pair{curve.name, label}) != shown.end()) {
+                for (const RenderedFrame& frame : drawn.frames) {
+                    result_.pictures.push_back({curve.name, label, frame.frame, frame.image()});
+                }
+            }
+        }
+    }
+
     void measure_cycles() {
         if (options_.cycles_spp.empty()) {
             return;
         }
-        Curve curve{"Cycles", true, {}};
+        result_.curves.push_back({"Cycles", true, {}});
         for (const int spp : options_.cycles_spp) {
-            std::vector<FrameError> frames;
+            std::vector<RenderedFrame> frames;
             double setup = 0.0;
             size_t memory = 0;
             std::string measured;
-            const std::string label = fmt::format("{} spp", spp);
             for (const int frame : options_.frames) {
                 const CyclesRender& render = find_render(frame, spp);
-                Image image = read_image(render.output);
-                frames.push_back(measure(frame, render.seconds, image, references_->at(frame).image));
-                set_spread(frames.back(), render.all_seconds);
+                frames.push_back({frame, render.seconds, render.output, nullptr, render.all_seconds});
                 memory = std::max(memory, render.rss_peak_bytes);
                 measured = render.measured.empty() ? measured : render.measured;
                 setup += render.setup_seconds / static_cast<double>(options_.frames.size());
-                result_.pictures.push_back({curve.name, label, frame, std::move(image)});
             }
-            curve.points.push_back(make_point(label, std::move(frames)));
-            curve.points.back().setup_seconds = setup;
-            curve.points.back().startup_seconds = result_.cycles.startup_seconds;
-            curve.points.back().rss_peak_bytes = memory;
-            curve.points.back().measured = measured;
+            CurvePoint& point = add_point(fmt::format("{} spp", spp), std::move(frames));
+            point.setup_seconds = setup;
+            point.startup_seconds = result_.cycles.startup_seconds;
+            point.rss_peak_bytes = memory;
+            point.measured = measured;
         }
-        result_.curves.push_back(std::move(curve));
     }
 
     void measure_previews() {
         for (size_t i = 0; i < options_.runs.size(); ++i) {
             const PreviewRun& run = options_.runs[i];
-            std::vector<FrameError> frames;
+            std::vector<RenderedFrame> frames;
             for (const PreviewFrame& frame : previews_[i].frames) {
-                Image image = read_image(frame.image);
-                frames.push_back(
-                    measure(frame.frame, frame.seconds, image, references_->at(frame.frame).image));
-                set_spread(frames.back(), frame.all_seconds);
-                result_.pictures.push_back({run.name, run.label, frame.frame, std::move(image)});
+                frames.push_back({frame.frame, frame.seconds, frame.image, nullptr, frame.all_seconds});
             }
             if (result_.curves.empty() || result_.curves.back().name != run.name) {
                 result_.curves.push_back({run.name, false, {}});
             }
-            result_.curves.back().points.push_back(make_point(run.label, std::move(frames)));
-            result_.curves.back().points.back().startup_seconds = previews_[i].startup_seconds;
-            result_.curves.back().points.back().rss_peak_bytes = previews_[i].rss_peak_bytes;
-            result_.curves.back().points.back().gl_peak_bytes = previews_[i].gl_peak_bytes;
-            result_.curves.back().points.back().options = run.render_arguments;
+            CurvePoint& point = add_point(run.label, std::move(frames));
+            point.startup_seconds = previews_[i].startup_seconds;
+            point.rss_peak_bytes = previews_[i].rss_peak_bytes;
+            point.gl_peak_bytes = previews_[i].gl_peak_bytes;
+            point.options = run.render_arguments;
         }
         mark_pareto(result_.curves);
         result_.speedups = speedups_at_equal_error(result_.curves);
@@ -258,7 +257,7 @@ class Evaluator {
     }
 
     [[nodiscard]] PeerJob peer_job() const {
-        return {options_.scene,  scene_hash_,
+        return {options_.scene,  render_hash_,
                 blender_,        result_.blender,
                 options_.frames, options_.width,
                 options_.height, options_.peer_limit_seconds,
@@ -275,26 +274,22 @@ class Evaluator {
     void measure_peers() {
         for (const PeerResult& peer : result_.peers) {
             for (const PeerPoint& point : peer.points) {
-                std::vector<FrameError> frames;
+                std::vector<RenderedFrame> frames;
                 CurvePoint values;
                 for (const PeerFrame& frame : point.frames) {
                     const CachedRender& render = frame.render;
-                    frames.push_back(measure(frame.frame, render.seconds, render.image,
-                                             references_->at(frame.frame).image));
-                    set_spread(frames.back(), render.all_seconds);
+                    frames.push_back({frame.frame, render.seconds, {}, &render.image, render.all_seconds});
                     values.startup_seconds = render.startup_seconds;
                     values.rss_peak_bytes = std::max(values.rss_peak_bytes, render.rss_peak_bytes);
                     values.measured = frame.cached ? render.date : values.measured;
-                    result_.pictures.push_back({point.curve, point.label, frame.frame, render.image});
                 }
                 if (result_.curves.empty() || result_.curves.back().name != point.curve) {
                     result_.curves.push_back({point.curve, false, {}, true});
                 }
-                CurvePoint measured = make_point(point.label, std::move(frames));
+                CurvePoint& measured = add_point(point.label, std::move(frames));
                 measured.startup_seconds = values.startup_seconds;
                 measured.rss_peak_bytes = values.rss_peak_bytes;
                 measured.measured = values.measured;
-                result_.curves.back().points.push_back(std::move(measured));
             }
         }
     }
@@ -317,7 +312,8 @@ class Evaluator {
     }
 
     void describe() {
-        result_.startups = startups_of(result_, resolved_.export_seconds);
+        result_.startups = startups_of(result_, previews_, resolved_.export_seconds,
+                                       measure_engine_starts(blender_, result_));
         result_.scene = options_.scene.filename().string();
         result_.command = options_.command;
         result_.date = utc_now();
@@ -327,6 +323,8 @@ class Evaluator {
         result_.given_reference = options_.given_reference;
         result_.bounces = options_.bounces;
         result_.frames = options_.frames;
+        result_.sequence_step = even_step(options_.frames);
+        result_.motion = motion_->known();
         result_.machine = this_machine();
         if (!previews_.empty()) {
             result_.gl_vendor = previews_.front().gl_vendor;
@@ -340,10 +338,13 @@ class Evaluator {
     ResolvedScene resolved_;
     fs::path gltf_;
     fs::path blender_;
-    std::string scene_hash_;
+    std::string scene_hash_;   // of the content
+    std::string render_hash_;  // of what Blender's renders depend on
     RenderCache render_cache_;
     std::optional<ReferenceSet> references_;
     std::vector<PreviewResult> previews_;
+    std::optional<MotionLayers> motion_;
+    std::vector<RenderedPoint> drawn_;
     Evaluation result_;
 };
 

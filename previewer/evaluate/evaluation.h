@@ -50,7 +50,9 @@ struct EvaluateOptions {
 struct StartUp {
     std::string engine;
     double export_seconds = 0.0;
-    double load_seconds = 0.0;
+    double display_seconds = 0.0;  // a virtual one's start
+    double start_seconds = 0.0;    // the program's, with nothing loaded
+    double load_seconds = 0.0;     // of the scene; holds the start where that cannot be told
     double first_render_seconds = 0.0;
     std::string note;  // what the figures hold
 };
@@ -74,6 +76,8 @@ struct Evaluation {
     int height = 0;
     int bounces = 1;
     std::vector<int> frames;
+    int sequence_step = 0;  // even_step() of the frames; 0 where they are no sequence
+    bool motion = false;    // whether their motion is known, and so TID
     Machine machine;
     std::string gl_vendor, gl_renderer, gl_version;
     std::string blender;
@@ -82,7 +86,7 @@ struct Evaluation {
     std::vector<Curve> curves;          // Cycles first
     std::vector<Speedup> speedups;
     FrontSummary front;
-    std::vector<Picture> pictures;
+    std::vector<Picture> pictures;  // at least those that the report shows
     std::vector<PeerResult> peers;  // what they were set to, and what is missing; their points are in curves
     std::vector<PassTimes> passes;
     std::vector<StartUp> startups;

@@ -75,10 +75,6 @@ class F3dRun {
                 }
             }
         }
-        for (PeerPoint& point : result_.points) {
-            std::sort(point.frames.begin(), point.frames.end(),
-                      [](const PeerFrame& a, const PeerFrame& b) { return a.frame < b.frame; });
-        }
     }
 
   private:

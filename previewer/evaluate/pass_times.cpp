@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "core/process.h"
 #include "evaluate/cycles_runner.h"
@@ -69,7 +70,7 @@ PassTimes measure_passes(const fs::path& bounce, const fs::path& scene, const Pr
         return result;
     } catch (const nlohmann::json::exception& error) {
         throw Error(ExitCode::failed, fmt::format("{}, {}: {} cannot be used: {}", run.name, run.label,
-                                                  stats.string(), error.what()));
+                                                  stats.string(), json_fault(error)));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/peers.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -37,6 +38,10 @@ PeerResult run_peer(const std::string& name, const PeerJob& job, const PeerProgr
     // A point is one where all its frames are.
     std::erase_if(result.points,
                   [&](const PeerPoint& point) { return point.frames.size() != job.frames.size(); });
+    for (PeerPoint& point : result.points) {  // those of an earlier run came first
+        std::sort(point.frames.begin(), point.frames.end(),
+                  [](const PeerFrame& a, const PeerFrame& b) { return a.frame < b.frame; });
+    }
     for (const std::string& line : result.left_out) {
         log::warning("{}", line);
     }

@@ -10,8 +10,10 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "core/process.h"
+#include "evaluate/record_file.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -76,7 +78,14 @@ PreviewResult read_stats(const fs::path& stats, const std::vector<int>& frames, 
     const auto memory = json.value("memory", nlohmann::json::object());
     result.rss_peak_bytes = memory.value("rss_peak_bytes", size_t{0});
     result.gl_peak_bytes = memory.value("gl_peak_bytes", size_t{0});
-    result.startup_seconds = std::max(process_seconds - rendering, 0.0);
+    const auto& startup = json.at("startup");
+    result.load_seconds = (finite_number(startup, "load_ms") + finite_number(startup, "upload_ms")) / 1000.0;
+    result.first_frame_seconds = finite_number(startup, "first_frame_ms") / 1000.0;
+    if (process_seconds > 0.0) {
+        result.startup_seconds = std::max(process_seconds - rendering, 0.0);
+        result.start_seconds = std::max(process_seconds - finite_number(json, "run_ms") / 1000.0, 0.0) +
+                               finite_number(startup, "context_ms") / 1000.0;
+    }
     return result;
 }
 
@@ -152,7 +161,7 @@ PreviewResult run_preview(const fs::path& bounce, const fs::path& scene, const P
         return read_stats(stats, frames, folder, result.seconds);
     } catch (const nlohmann::json::exception& error) {
         throw Error(ExitCode::failed, fmt::format("{}, {}: {} cannot be used: {}", run.name, run.label,
-                                                  stats.string(), error.what()));
+                                                  stats.string(), json_fault(error)));
     }
 }
 

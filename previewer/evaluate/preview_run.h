@@ -29,6 +29,11 @@ struct PreviewFrame {
 struct PreviewResult {
     std::vector<PreviewFrame> frames;
     double startup_seconds = 0.0;  // the process's time outside the repeated renders
+    // Of it; the rest is writing files and warming up for later frames.
+    double start_seconds =
+        0.0;  // the process, from its start to its end, but for the command; OpenGL's context
+    double load_seconds = 0.0;         // reading the file, taking it to OpenGL
+    double first_frame_seconds = 0.0;  // with compiling shaders
     std::string gl_vendor, gl_renderer, gl_version;
     size_t rss_peak_bytes = 0;
     size_t gl_peak_bytes = 0;
@@ -42,7 +47,8 @@ struct PreviewResult {
                                         const std::vector<int>& frames, int width, int height, int repeat,
                                         const std::filesystem::path& folder);
 
-// What run_preview left in folder: its pictures and stats.json; startup_seconds stays 0. Throws
+// What run_preview left in folder: its pictures and stats.json; startup_seconds and start_seconds, which
+// only the one who ran it knows, stay 0. Throws
 // nlohmann::json::exception where stats.json is damaged, Error where it tells of other frames.
 [[nodiscard]] PreviewResult read_preview(const std::filesystem::path& folder, const std::vector<int>& frames);
 

@@ -11,15 +11,28 @@
 namespace bounce {
 namespace {
 
+constexpr size_t k_most_shown = 40;  // characters of a value in a message
+
+}  // namespace
+
 using nlohmann::json;
 
 // As the library's own for a wrong type, so that a reader has one kind of exception to catch.
-[[noreturn]] void throw_wrong(const json& record, const char* name, const std::string& wanted) {
-    throw json::other_error::create(
-        501, fmt::format("{} is {}, not {}", name, record.at(name).dump(), wanted), &record);
+void throw_wrong(const json& record, const char* name, const std::string& wanted) {
+    std::string value = record.at(name).dump(-1, ' ', true);  // ASCII: cut anywhere
+    if (value.size() > k_most_shown) {
+        value = value.substr(0, k_most_shown) + "...";
+    }
+    throw json::other_error::create(501, fmt::format("{} is {}, not {}", name, value, wanted), &record);
 }
 
-}  // namespace
+const json& list_member(const json& record, const char* name) {
+    const json& list = record.at(name);
+    if (!list.is_array()) {
+        throw_wrong(record, name, "a list");
+    }
+    return list;
+}
 
 json read_record(const std::filesystem::path& path) {
     std::error_code ignored;

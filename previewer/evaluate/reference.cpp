@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
 #include "evaluate/record_file.h"
@@ -108,8 +109,8 @@ std::optional<Reference> load_reference(const fs::path& folder, const ReferenceK
     } catch (const Error& error) {
         log::warning("a cached reference is rendered again: {}", error.what());
     } catch (const nlohmann::json::exception& error) {
-        log::warning("a cached reference is rendered again: {} is damaged ({})", record.string(),
-                     error.what());
+        log::warning("a cached reference is rendered again: {} is damaged: {}", record.string(),
+                     json_fault(error));
     }
     return std::nullopt;
 }

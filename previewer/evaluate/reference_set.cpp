@@ -29,8 +29,9 @@ ReferenceSet::ReferenceSet(Source source, fs::path folder, const RenderCache& re
 }
 
 ReferenceKey ReferenceSet::key_of(int frame) const {
-    return {source_.scene_hash, frame,           source_.width,           source_.height,
-            source_.goal.spp,   source_.bounces, source_.blender_version, cycles_scripts_hash(source_.scene)};
+    return {
+        source_.render_hash, frame,           source_.width,           source_.height,
+        source_.goal.spp,    source_.bounces, source_.blender_version, cycles_scripts_hash(source_.scene)};
 }
 
 bool ReferenceSet::lacks_any() const {

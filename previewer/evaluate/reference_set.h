@@ -31,6 +31,7 @@ class ReferenceSet {
         std::string given;              // image files, #### for the frame's number; empty: Cycles renders
         std::filesystem::path blender;  // empty where the references are given
         std::string blender_version;
+        std::string render_hash;  // of what Blender's renders of the scene depend on, for the cache
     };
     // The key of a finished picture of Cycles in the render cache.
     using CyclesKey = std::function<std::string(const CyclesRender&)>;

@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
 #include "evaluate/record_file.h"
@@ -80,7 +81,7 @@ std::optional<CachedRender> RenderCache::load(const std::string& key) const {
     } catch (const Error& error) {
         log::warning("{} is made again: {}", image.string(), error.what());
     } catch (const nlohmann::json::exception& error) {
-        log::warning("{} is made again: its record is damaged ({})", image.string(), error.what());
+        log::warning("{} is made again: its record is damaged: {}", image.string(), json_fault(error));
     }
     return std::nullopt;
 }

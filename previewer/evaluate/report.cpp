@@ -12,6 +12,7 @@
 #include "evaluate/given_reference.h"
 #include "evaluate/report_details.h"
 #include "image/image_io.h"
+#include "image/sequence_json.h"
 
 namespace bounce {
 namespace {
@@ -20,18 +21,6 @@ using nlohmann::ordered_json;
 
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-std::string kind_name(EqualErrorKind kind) {
-    switch (kind) {
-        case EqualErrorKind::interpolated:
-            return "interpolated";
-        case EqualErrorKind::extrapolated:
-            return "extrapolated";
-        case EqualErrorKind::fastest_point:
-            return "fastest_point";
-    }
-    return {};
 }
 
 double mean_of(const std::vector<Reference>& references, double Reference::*member) {
@@ -109,6 +98,7 @@ ordered_json point_json(const CurvePoint& point) {
              {"relmse", number(frame.relmse)},
              {"relmse_exposed", number(frame.relmse_exposed)},
              {"flip_ldr", number(frame.flip_ldr)},
+             {"flip_hdr", number(frame.flip_hdr)},
              {"ssim", number(frame.ssim)},
              {"psnr_db", number(frame.psnr_db)},
              {"bias", number(frame.bias)},
@@ -122,7 +112,11 @@ ordered_json point_json(const CurvePoint& point) {
     return {{"label", point.label},
             {"seconds", number(point.seconds)},
             {"relmse", number(point.relmse)},
+            {"relmse_exposed", number(point.relmse_exposed)},
             {"flip_ldr", number(point.flip_ldr)},
+            {"flip_hdr", number(point.flip_hdr)},
+            {"ssim", number(point.ssim)},
+            {"psnr_db", number(point.psnr_db)},
             {"bias", number(point.bias)},
             {"pareto", point.pareto},
             {"setup_seconds", number(point.setup_seconds)},
@@ -134,6 +128,7 @@ ordered_json point_json(const CurvePoint& point) {
             {"seconds_most", number(point.seconds_most)},
             {"own_front", point.own_front},
             {"options", point.options},
+            {"sequence", point.sequence ? sequence_figures_json(*point.sequence) : ordered_json(nullptr)},
             {"frames", frames}};
 }
 
@@ -170,23 +165,6 @@ std::string spread_text(const CurvePoint& point) {
                        100.0 * (point.seconds_most / point.seconds - 1.0));
 }
 
-// Empty where it is not known.
-std::string if_known(double value) {
-    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
-}
-
-// The row's last columns: empty where there is no time to equal error.
-std::string equal_error_csv(const Evaluation& evaluation, const std::string& curve,
-                            const std::string& label) {
-    for (const Speedup& speedup : evaluation.speedups) {
-        if (speedup.curve == curve && speedup.label == label) {
-            return fmt::format("{:.6g},{:.6g},{}", speedup.cycles_seconds, speedup.ratio,
-                               kind_name(speedup.kind));
-        }
-    }
-    return ",,";
-}
-
 }  // namespace
 
 ordered_json results_json(const Evaluation& evaluation) {
@@ -209,7 +187,7 @@ ordered_json results_json(const Evaluation& evaluation) {
                             {"bounce_seconds", number(speedup.bounce_seconds)},
                             {"cycles_seconds", number(speedup.cycles_seconds)},
                             {"ratio", number(speedup.ratio)},
-                            {"cycles_time", kind_name(speedup.kind)}});
+                            {"cycles_time", equal_error_name(speedup.kind)}});
     }
     const ViewTransform& view = evaluation.cycles.view;
     return {{"scene", evaluation.scene},
@@ -222,6 +200,7 @@ ordered_json results_json(const Evaluation& evaluation) {
             {"width", evaluation.width},
             {"height", evaluation.height},
             {"frames", evaluation.frames},
+            {"sequence", sequence_json(evaluation)},
             {"machine",
              {{"cpu", evaluation.machine.cpu},
               {"threads", evaluation.machine.threads},
@@ -238,29 +217,6 @@ ordered_json results_json(const Evaluation& evaluation) {
             {"passes", passes_json(evaluation)},
             {"command", evaluation.command},
             {"date", evaluation.date}};
-}
-
-std::string results_csv(const Evaluation& evaluation) {
-    std::string csv =
-        "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,ssim,psnr_db,bias,pareto,own_front,"
-        "seconds_least,seconds_most,cycles_seconds,ratio,cycles_time\n";
-    for (const Curve& curve : evaluation.curves) {
-        for (const CurvePoint& point : curve.points) {
-            csv += fmt::format("\"{}\",\"{}\",mean,{:.6g},{:.6g},,{:.6g},,,{:.6g},{},{},{},{},{}\n",
-                               curve.name, point.label, point.seconds, point.relmse, point.flip_ldr,
-                               point.bias, point.pareto, point.own_front, if_known(point.seconds_least),
-                               if_known(point.seconds_most),
-                               equal_error_csv(evaluation, curve.name, point.label));
-            for (const FrameError& frame : point.frames) {
-                csv += fmt::format(
-                    "\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},,,{},{},,,\n",
-                    curve.name, point.label, frame.frame, frame.seconds, frame.relmse, frame.relmse_exposed,
-                    frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias, if_known(frame.seconds_least),
-                    if_known(frame.seconds_most));
-            }
-        }
-    }
-    return csv;
 }
 
 std::string results_table(const Evaluation& evaluation) {

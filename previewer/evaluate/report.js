@@ -123,6 +123,12 @@ const report = (() => {
       (headroom < 10 ? ", and a longer reference would be needed to tell small ones apart" : "")));
 
   // ---- table of all points ----
+  const flipOf = (point) => {
+    const cell = document.createDocumentFragment();
+    cell.append(digits(point.flip_ldr, 3));
+    if (point.flip_hdr !== null) element("small", `HDR ${digits(point.flip_hdr, 3)}`, cell);
+    return cell;
+  };
   const timeOf = (point) => {
     const cell = document.createDocumentFragment();
     cell.append(`${time(point.seconds)}${point.measured ? " †" : ""}`);
@@ -151,7 +157,7 @@ const report = (() => {
         const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
           : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
         for (const text of [point.label, timeOf(point), scientific(point.relmse),
-          digits(point.flip_ldr, 3), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
+          flipOf(point), percent(point.bias), equal, speedup ? ratioText(speedup) : "",
           bytes(point.rss_peak_bytes), bytes(point.gl_peak_bytes)]) {
           row.insertCell().append(text);
         }
@@ -163,6 +169,10 @@ const report = (() => {
   const all = results.curves.flatMap((curve) => curve.points);
   const remarks = ["Process: the largest resident memory. Of Cycles and Eevee it is Blender's, up to that point. " +
     "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
+  if (all.some((point) => point.flip_hdr !== null)) {
+    remarks.push("HDR: HDR-FLIP, the largest FLIP of each pixel over all exposures at which the reference shows something" +
+      `${all.some((point) => point.flip_hdr === null) ? "; of the points whose pictures are shown above" : ""}.`);
+  }
   if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
     remarks.push("* Beyond Cycles' last point, along its last segment, but not flatter than noise falls.");
   }
@@ -180,13 +190,14 @@ const report = (() => {
   // ---- before the first frame ----
   const startup = byId("startup");
   const startupHead = startup.createTHead().insertRow();
-  for (const text of ["engine", "export", "start and load", "first render", "what the figures hold"]) {
+  for (const text of ["engine", "export", "display", "start", "load", "first render", "what the figures hold"]) {
     element("th", text, startupHead);
   }
   const startupBody = startup.createTBody();
   for (const item of results.startup) {
     const row = startupBody.insertRow();
-    for (const text of [item.engine, ...[item.export_seconds, item.load_seconds, item.first_render_seconds]
+    for (const text of [item.engine, ...[item.export_seconds, item.display_seconds, item.start_seconds,
+      item.load_seconds, item.first_render_seconds]
       .map((seconds) => (seconds === null ? "–" : time(seconds))), item.note]) {
       row.insertCell().textContent = text;
     }
@@ -210,7 +221,7 @@ const report = (() => {
     "reference: half the difference of two halves with different seeds, squared and weighted as in relMSE" +
     (headroom === null ? "." : `. The smallest error measured here is ${digits(headroom, 2)} times as large.`));
   fact("Time", "Per frame in steady state: Cycles renders a frame once before the render that is timed (the median of " +
-    "three up to 4 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
+    "three up to 16 spp); Bounce's is the median of repeated renders after a warm-up. Files are written outside it." +
     (setup > 0 ? ` Cycles' set-up of each frame (transfer and BVH), which is in its times: ${time(setup)}.` : ""));
   for (const peer of results.peers) {
     if (results.curves.some((curve) => curve.name === peer.name)) fact(peer.name, peer.settings);

@@ -27,11 +27,20 @@ ordered_json peers_json(const Evaluation& evaluation) {
     return peers;
 }
 
+ordered_json sequence_json(const Evaluation& evaluation) {
+    if (evaluation.sequence_step == 0) {
+        return nullptr;
+    }
+    return {{"step", evaluation.sequence_step}, {"motion", evaluation.motion}};
+}
+
 ordered_json startup_json(const Evaluation& evaluation) {
     ordered_json rows = ordered_json::array();
     for (const StartUp& row : evaluation.startups) {
         rows.push_back({{"engine", row.engine},
                         {"export_seconds", known(row.export_seconds)},
+                        {"display_seconds", known(row.display_seconds)},
+                        {"start_seconds", known(row.start_seconds)},
                         {"load_seconds", known(row.load_seconds)},
                         {"first_render_seconds", known(row.first_render_seconds)},
                         {"note", row.note}});

@@ -12,6 +12,9 @@ namespace bounce {
 // [{name, settings, left_out[], notes[]}]
 [[nodiscard]] nlohmann::ordered_json peers_json(const Evaluation& evaluation);
 
+// {step, motion}; null where the frames are no sequence.
+[[nodiscard]] nlohmann::ordered_json sequence_json(const Evaluation& evaluation);
+
 // [{engine, export_seconds, load_seconds, first_render_seconds, note}]; null where there is no such step.
 [[nodiscard]] nlohmann::ordered_json startup_json(const Evaluation& evaluation);
 

@@ -38,13 +38,14 @@
     });
     const table = byId("frames-table");
     table.replaceChildren();
+    const hdr = point.flip_hdr !== null;
     const head = table.createTHead().insertRow();
-    for (const text of ["frame", "time", "fastest to slowest", "relMSE", "FLIP", "SSIM", "PSNR", "bias"]) element("th", text, head);
+    for (const text of ["frame", "time", "fastest to slowest", "relMSE", "FLIP", ...(hdr ? ["HDR-FLIP"] : []), "SSIM", "PSNR", "bias"]) element("th", text, head);
     const body = table.createTBody();
     for (const frame of point.frames) {
       const row = body.insertRow();
       for (const text of [frame.frame, time(frame.seconds), spread(frame), scientific(frame.relmse), digits(frame.flip_ldr, 3),
-        digits(frame.ssim, 4), frame.psnr_db === null ? "–" : `${digits(frame.psnr_db, 3)} dB`, percent(frame.bias)]) {
+        ...(hdr ? [digits(frame.flip_hdr, 3)] : []), digits(frame.ssim, 4), frame.psnr_db === null ? "–" : `${digits(frame.psnr_db, 3)} dB`, percent(frame.bias)]) {
         row.insertCell().textContent = text;
       }
     }

@@ -92,6 +92,7 @@ std::string results_html(const Evaluation& evaluation) {
     put_into_page(page, "/*REPORT_VIEWER_JS*/", embedded::report_viewer_js());
     put_into_page(page, "/*REPORT_FRAME_JS*/", embedded::report_frame_js());
     put_into_page(page, "/*REPORT_FRAMES_JS*/", embedded::report_frames_js());
+    put_into_page(page, "/*REPORT_SEQUENCE_JS*/", embedded::report_sequence_js());
     put_into_page(page, "/*REPORT_BUDGETS_JS*/", embedded::report_budgets_js());
     put_into_page(page, "/*PICTURES*/", json_for_script(pictures_json(evaluation)));
     put_into_page(page, "/*RESULTS*/", json_for_script(results_json(evaluation)));

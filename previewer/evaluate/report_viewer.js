@@ -28,8 +28,8 @@
     const point = results.curves.find((curve) => curve.name === preview.curve)
       .points.find((item) => item.label === preview.label).frames.find((item) => item.frame === frame.frame);
     return { ...preview, tag: name, flip_ldr: point.flip_ldr,
-      caption: `${name}: ${time(point.seconds)}, relMSE ${scientific(point.relmse)}, FLIP ${digits(point.flip_ldr, 3)}, ` +
-        `bias ${percent(point.bias)}` };
+      caption: `${name}: ${time(point.seconds)}, relMSE ${scientific(point.relmse)}, FLIP ${digits(point.flip_ldr, 3)}` +
+        `${point.flip_hdr === null ? "" : ` (HDR ${digits(point.flip_hdr, 3)})`}, bias ${percent(point.bias)}` };
   };
   const place = (id, source, text) => { byId(id).src = source; byId(id).alt = text; };
 

@@ -30,8 +30,7 @@ json framed(const scene::Scene& scene, int frame, double aspect) {
 
 json scene_defaults(const std::filesystem::path& gltf, const std::vector<int>& frames, int width,
                     int height) {
-    // Large files load slowly: only those that need it are.
-    if (gltf.extension() == ".blend" || !gltf_leaves_to_defaults(gltf)) {
+    if (gltf.extension() == ".blend" || !is_gltf(gltf)) {
         return nullptr;
     }
     const scene::Scene scene = scene::load_gltf(gltf).scene;

@@ -95,17 +95,8 @@ std::string sha256_of_gltf(const fs::path& gltf) {
     return hash.hex_digest();
 }
 
-bool gltf_leaves_to_defaults(const fs::path& gltf) {
-    const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
-    if (!json.is_object()) {
-        return false;
-    }
-    const auto nodes = json.value("nodes", nlohmann::json::array());
-    const bool has_camera =
-        nodes.is_array() && std::any_of(nodes.begin(), nodes.end(), [](const nlohmann::json& node) {
-            return node.is_object() && node.contains("camera");
-        });
-    return !has_camera || !gltf_uses_extension(gltf, "BOUNCE_scene");
+bool is_gltf(const fs::path& gltf) {
+    return nlohmann::json::parse(json_text(gltf), nullptr, false).is_object();
 }
 
 }  // namespace bounce

@@ -19,8 +19,7 @@ namespace bounce {
 // Whether the file lists the extension as used. False where it cannot be read, and for a .blend.
 [[nodiscard]] bool gltf_uses_extension(const std::filesystem::path& gltf, std::string_view name);
 
-// Whether Bounce chooses the camera or the world by itself: the file has no camera, or no BOUNCE_scene. False
-// for what is no glTF, which the loader refuses.
-[[nodiscard]] bool gltf_leaves_to_defaults(const std::filesystem::path& gltf);
+// Whether the file holds what a glTF begins with, a JSON object; it may still be none that can be loaded.
+[[nodiscard]] bool is_gltf(const std::filesystem::path& gltf);
 
 }  // namespace bounce

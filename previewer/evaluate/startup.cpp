@@ -3,57 +3,92 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace bounce {
 namespace {
 
-// The middle of a curve's points; start-up hardly depends on the point, and one slow start is not the
-// engine's.
-double median_startup(const Evaluation& evaluation, bool (*counts)(const Curve&)) {
+// The middle of the runs; start-up hardly depends on their settings, and one slow start is not the engine's.
+double median(const std::vector<PreviewResult>& previews, double PreviewResult::*part) {
     std::vector<double> seconds;
-    for (const Curve& curve : evaluation.curves) {
-        if (counts(curve)) {
-            for (const CurvePoint& point : curve.points) {
-                seconds.push_back(point.startup_seconds);
-            }
-        }
-    }
-    if (seconds.empty()) {
-        return 0.0;
+    seconds.reserve(previews.size());
+    for (const PreviewResult& preview : previews) {
+        seconds.push_back(preview.*part);
     }
     std::sort(seconds.begin(), seconds.end());
-    return seconds[seconds.size() / 2];
+    return 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
+}
+
+// Takes a part that was measured in another run off a whole: 0 and the whole where it does not fit, as on a
+// machine that was busier then.
+double take_off(double& whole, double part) {
+    if (part <= 0.0 || part >= whole) {
+        return 0.0;
+    }
+    whole -= part;
+    return part;
+}
+
+StartUp of_blender(const char* engine, double together, double first_render, double display, double blender,
+                   const char* first) {
+    StartUp row;
+    row.engine = engine;
+    row.first_render_seconds = first_render;
+    row.load_seconds = together;
+    row.display_seconds = take_off(row.load_seconds, display);
+    row.start_seconds = take_off(row.load_seconds, blender);
+    row.note =
+        row.start_seconds > 0.0
+            ? "Start: of Blender with nothing to open, timed by itself. Load: from there to the open scene. "
+            : "Load: Blender's start and opening the scene, which this run cannot tell apart. ";
+    row.note += first;
+    return row;
+}
+
+StartUp of_f3d(const CachedRender& render, const EngineStarts& starts) {
+    StartUp row;
+    row.engine = "f3d";
+    row.export_seconds = render.export_seconds;
+    row.load_seconds = render.startup_seconds;
+    row.display_seconds = take_off(row.load_seconds, starts.display);
+    row.start_seconds = take_off(row.load_seconds, starts.f3d);
+    row.note = row.start_seconds > 0.0
+                   ? "Start: of the program and its libraries (f3d --version), timed by itself. "
+                   : "";
+    row.note += fmt::format(
+        "Load: {}window, file, shaders, a first frame and writing it, which f3d does not tell apart.",
+        row.start_seconds > 0.0 ? "" : "the program's start, ");
+    return row;
 }
 
 }  // namespace
 
-std::vector<StartUp> startups_of(const Evaluation& evaluation, double export_seconds) {
+std::vector<StartUp> startups_of(const Evaluation& evaluation, const std::vector<PreviewResult>& previews,
+                                 double export_seconds, const EngineStarts& starts) {
     std::vector<StartUp> rows;
-    const bool has_own =
-        std::any_of(evaluation.curves.begin(), evaluation.curves.end(),
-                    [](const Curve& curve) { return !curve.reference_engine && !curve.peer; });
-    if (has_own) {
+    if (!previews.empty()) {
         rows.push_back(
-            {"Bounce", export_seconds,
-             median_startup(evaluation,
-                            [](const Curve& curve) { return !curve.reference_engine && !curve.peer; }),
-             0.0, "Start, load, shaders, a first frame and writing files together; the median of the runs."});
+            {"Bounce", export_seconds, 0.0, median(previews, &PreviewResult::start_seconds),
+             median(previews, &PreviewResult::load_seconds),
+             median(previews, &PreviewResult::first_frame_seconds),
+             "Start: the process and its OpenGL context. Load: reading and decoding the glTF file, "
+             "taking it to OpenGL. First render: with its shaders, from the driver's cache where it "
+             "has them. Each the median of the runs."});
     }
     if (!evaluation.cycles.version.empty()) {
-        rows.push_back({"Cycles", 0.0, evaluation.cycles.startup_seconds,
-                        evaluation.cycles.first_render_seconds,
-                        "Blender's start and opening the scene; then a first render of one sample."});
+        rows.push_back(of_blender("Cycles", evaluation.cycles.startup_seconds,
+                                  evaluation.cycles.first_render_seconds, 0.0, starts.blender,
+                                  "First render: one sample."));
     }
     for (const PeerResult& peer : evaluation.peers) {
         if (peer.points.empty()) {
             continue;
         }
         const CachedRender& first = peer.points.front().frames.front().render;
-        const bool eevee = first.first_render_seconds > 0.0;
-        rows.push_back(
-            {peer.name, first.export_seconds, first.startup_seconds, first.first_render_seconds,
-             eevee ? "The display's and Blender's start and opening the scene; then a first render, which "
-                     "compiles shaders."
-                   : "The display's start, start, load, shaders and writing the file together."});
+        rows.push_back(peer.name == "f3d"
+                           ? of_f3d(first, starts)
+                           : of_blender(peer.name.c_str(), first.startup_seconds, first.first_render_seconds,
+                                        starts.display, starts.blender, "First render: compiles shaders."));
     }
     return rows;
 }

@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
 #include "evaluate/machine.h"
@@ -82,6 +83,7 @@ void keep_point(const fs::path& folder, const PointKey& key, const PreviewResult
     const nlohmann::ordered_json record{{"schema", k_schema},
                                         {"options", key.render_arguments},
                                         {"startup_seconds", result.startup_seconds},
+                                        {"start_seconds", result.start_seconds},
                                         {"sha256", files}};
     write_text_file(record_path(folder, key), record.dump(2) + "\n");
 }
@@ -105,9 +107,10 @@ std::optional<PreviewResult> load_point(const fs::path& folder, const PointKey& 
             }
         }
         result.startup_seconds = finite_number(record, "startup_seconds");
+        result.start_seconds = finite_number(record, "start_seconds");
         return result;
     } catch (const nlohmann::json::exception& error) {
-        log::debug("{}: {}; the point is measured again", point_name(key), error.what());
+        log::debug("{}: {}; the point is measured again", point_name(key), json_fault(error));
     } catch (const Error& error) {
         log::debug("{}; the point is measured again", error.what());
     }

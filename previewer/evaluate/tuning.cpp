@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/json_fault.h"
+#include "evaluate/record_file.h"
 
 namespace bounce {
 namespace {
@@ -20,14 +22,14 @@ bool better(const CurvePoint& a, const CurvePoint& b) {
 
 TunedSettings parse_settings(const nlohmann::json& item) {
     TunedSettings tuned;
-    tuned.budget_ms = item.at("budget_ms");
-    tuned.seconds = item.at("seconds");
-    tuned.relmse = item.at("relmse");
-    tuned.flip_ldr = item.at("flip_ldr");
-    tuned.bias = item.at("bias");
-    tuned.curve = item.at("curve");
-    tuned.label = item.at("label");
-    tuned.options = item.at("options").get<std::vector<std::string>>();
+    tuned.budget_ms = member<double>(item, "budget_ms");
+    tuned.seconds = member<double>(item, "seconds");
+    tuned.relmse = member<double>(item, "relmse");
+    tuned.flip_ldr = member<double>(item, "flip_ldr");
+    tuned.bias = member<double>(item, "bias");
+    tuned.curve = member<std::string>(item, "curve");
+    tuned.label = member<std::string>(item, "label");
+    tuned.options = member<std::vector<std::string>>(item, "options");
     return tuned;
 }
 
@@ -113,21 +115,23 @@ Tuning read_tuning(const std::filesystem::path& path) {
     }
     try {
         Tuning tuning;
-        tuning.scene = json.at("scene");
-        tuning.width = json.at("width");
-        tuning.height = json.at("height");
-        tuning.bounces = json.at("bounces");
-        tuning.cpu = json.at("machine").at("cpu");
-        tuning.threads = json.at("machine").at("threads");
-        tuning.gl_renderer = json.at("machine").at("gl_renderer");
-        for (const auto& item : json.at("budgets")) {
+        tuning.scene = member<std::string>(json, "scene");
+        tuning.width = member<int>(json, "width");
+        tuning.height = member<int>(json, "height");
+        tuning.bounces = member<int>(json, "bounces");
+        const auto& machine = json.at("machine");
+        tuning.cpu = member<std::string>(machine, "cpu");
+        tuning.threads = member<int>(machine, "threads");
+        tuning.gl_renderer = member<std::string>(machine, "gl_renderer");
+        for (const auto& item : list_member(json, "budgets")) {
             tuning.budgets.push_back(parse_settings(item));
         }
         std::sort(tuning.budgets.begin(), tuning.budgets.end(),
                   [](const auto& a, const auto& b) { return a.budget_ms < b.budget_ms; });
         return tuning;
     } catch (const nlohmann::json::exception& error) {
-        throw input_error(fmt::format("the tuning file {} cannot be used: {}", path.string(), error.what()));
+        throw input_error(
+            fmt::format("the tuning file {} cannot be used: {}", path.string(), json_fault(error)));
     }
 }
 

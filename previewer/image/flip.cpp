@@ -12,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -160,33 +161,19 @@ Features detect_features(const Plane& y, const FeatureKernels& kernels) {
     return {length_of(kernels.edge), length_of(kernels.point)};
 }
 
-// LDR-FLIP of linear RGB, clamped to 0..1 (section 4).
-Plane flip_of_linear(const std::vector<glm::vec3>& test, const std::vector<glm::vec3>& reference, int width,
-                     int height, float pixels_per_degree) {
-    const FeatureKernels kernels = feature_kernels(pixels_per_degree);
-    const auto analyse = [&](const std::vector<glm::vec3>& linear) {
-        Planes planes{Plane(width, height), Plane(width, height), Plane(width, height)};
-        for (size_t i = 0; i < linear.size(); ++i) {
-            const glm::vec3 ycxcz = flip::ycxcz_from_linear(glm::clamp(linear[i], 0.0F, 1.0F));
-            for (int channel = 0; channel < 3; ++channel) {
-                planes[static_cast<size_t>(channel)].values[i] = ycxcz[channel];
-            }
+// Of linear RGB, clamped to 0..1 (section 4).
+PerceivedImage perceived_linear(const std::vector<glm::vec3>& linear, int width, int height,
+                                float pixels_per_degree) {
+    Planes planes{Plane(width, height), Plane(width, height), Plane(width, height)};
+    for (size_t i = 0; i < linear.size(); ++i) {
+        const glm::vec3 ycxcz = flip::ycxcz_from_linear(glm::clamp(linear[i], 0.0F, 1.0F));
+        for (int channel = 0; channel < 3; ++channel) {
+            planes[static_cast<size_t>(channel)].values[i] = ycxcz[channel];
         }
-        return std::pair{perceived_colors(planes, pixels_per_degree), detect_features(planes[0], kernels)};
-    };
-    const auto [test_colors, test_features] = analyse(test);
-    const auto [reference_colors, reference_features] = analyse(reference);
-
-    Plane error(width, height);
-    for (size_t i = 0; i < error.values.size(); ++i) {
-        const float edge = std::abs(test_features.edges.values[i] - reference_features.edges.values[i]);
-        const float point = std::abs(test_features.points.values[i] - reference_features.points.values[i]);
-        const float feature =
-            std::pow(std::max(edge, point) / std::numbers::sqrt2_v<float>, k_feature_exponent);
-        error.values[i] = std::pow(color_error(test_colors[i], reference_colors[i]),
-                                   1.0F - std::clamp(feature, 0.0F, 1.0F));
     }
-    return error;
+    Features features = detect_features(planes[0], feature_kernels(pixels_per_degree));
+    return {width, height, perceived_colors(planes, pixels_per_degree), std::move(features.edges),
+            std::move(features.points)};
 }
 
 // The fit to the ACES curve of Narkowicz (2015), its pre-exposure of 0.6 undone: numerator and
@@ -209,19 +196,80 @@ std::vector<glm::vec3> tone_mapped(const Image& linear, float exposure) {
     return mapped;
 }
 
+float exposure_at(const FlipExposures& exposures, int index) {
+    return exposures.start + static_cast<float>(index) * (exposures.stop - exposures.start) /
+                                 static_cast<float>(exposures.count - 1);
+}
+
+// The picture as HDR-FLIP sees it at one of the exposures.
+PerceivedImage perceived_exposed(const Image& linear, const FlipExposures& exposures, int index,
+                                 float pixels_per_degree) {
+    return perceived_linear(tone_mapped(linear, exposure_at(exposures, index)), linear.width, linear.height,
+                            pixels_per_degree);
+}
+
+// act(first, stride) for each of as many threads as there are processors, at most count: together they have
+// all indices below count.
+template <typename Act>
+auto in_strides(int count, const Act& act) {
+    const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, count);
+    std::vector<std::future<std::invoke_result_t<Act, int, int>>> parts;
+    parts.reserve(static_cast<size_t>(workers));
+    for (int first = 0; first < workers; ++first) {
+        parts.push_back(std::async(std::launch::async, act, first, workers));
+    }
+    return parts;
+}
+
+void take_larger(Plane& largest, const Plane& error) {
+    std::transform(largest.values.begin(), largest.values.end(), error.values.begin(), largest.values.begin(),
+                   [](float a, float b) { return std::max(a, b); });
+}
+
+// The largest error of each pixel over the exposures. They are independent and the maximum does not depend on
+// their order, and so not on the number of threads.
+template <typename ErrorAt>
+Plane largest_error(int width, int height, int exposures, const ErrorAt& error_at) {
+    Plane result(width, height);
+    for (auto& part : in_strides(exposures, [&](int first, int stride) {
+             Plane largest(width, height);
+             for (int index = first; index < exposures; index += stride) {
+                 take_larger(largest, error_at(index));
+             }
+             return largest;
+         })) {
+        take_larger(result, part.get());
+    }
+    return result;
+}
+
 }  // namespace
 
+PerceivedImage perceived(const Image& display, float pixels_per_degree) {
+    std::vector<glm::vec3> linear(display.rgb.size() / 3);
+    for (size_t i = 0; i < display.rgb.size(); ++i) {
+        linear[i / 3][static_cast<int>(i % 3)] = linear_from_srgb(std::clamp(display.rgb[i], 0.0F, 1.0F));
+    }
+    return perceived_linear(linear, display.width, display.height, pixels_per_degree);
+}
+
+Plane flip_ldr(const PerceivedImage& test, const PerceivedImage& reference) {
+    assert(test.width == reference.width && test.height == reference.height);
+    Plane error(test.width, test.height);
+    for (size_t i = 0; i < error.values.size(); ++i) {
+        const float edge = std::abs(test.edges.values[i] - reference.edges.values[i]);
+        const float point = std::abs(test.points.values[i] - reference.points.values[i]);
+        const float feature =
+            std::pow(std::max(edge, point) / std::numbers::sqrt2_v<float>, k_feature_exponent);
+        error.values[i] = std::pow(color_error(test.colors[i], reference.colors[i]),
+                                   1.0F - std::clamp(feature, 0.0F, 1.0F));
+    }
+    return error;
+}
+
 Plane flip_ldr(const Image& test_display, const Image& reference_display, float pixels_per_degree) {
-    assert(test_display.width == reference_display.width && test_display.height == reference_display.height);
-    const auto decode = [](const Image& display) {
-        std::vector<glm::vec3> linear(display.rgb.size() / 3);
-        for (size_t i = 0; i < display.rgb.size(); ++i) {
-            linear[i / 3][static_cast<int>(i % 3)] = linear_from_srgb(std::clamp(display.rgb[i], 0.0F, 1.0F));
-        }
-        return linear;
-    };
-    return flip_of_linear(decode(test_display), decode(reference_display), test_display.width,
-                          test_display.height, pixels_per_degree);
+    return flip_ldr(perceived(test_display, pixels_per_degree),
+                    perceived(reference_display, pixels_per_degree));
 }
 
 FlipExposures flip_exposures(const Image& reference_linear) {
@@ -255,36 +303,30 @@ FlipExposures flip_exposures(const Image& reference_linear) {
 Plane flip_hdr(const Image& test_linear, const Image& reference_linear, float pixels_per_degree) {
     assert(test_linear.width == reference_linear.width && test_linear.height == reference_linear.height);
     const FlipExposures exposures = flip_exposures(reference_linear);
-    const auto at_exposure = [&](int index) {
-        const float exposure = exposures.start + static_cast<float>(index) *
-                                                     (exposures.stop - exposures.start) /
-                                                     static_cast<float>(exposures.count - 1);
-        return flip_of_linear(tone_mapped(test_linear, exposure), tone_mapped(reference_linear, exposure),
-                              test_linear.width, test_linear.height, pixels_per_degree);
-    };
-    // Exposures are independent and the maximum does not depend on their order.
-    const auto worker = [&](int first, int stride) {
-        Plane largest(test_linear.width, test_linear.height);
-        for (int index = first; index < exposures.count; index += stride) {
-            const Plane error = at_exposure(index);
-            std::transform(largest.values.begin(), largest.values.end(), error.values.begin(),
-                           largest.values.begin(), [](float a, float b) { return std::max(a, b); });
-        }
-        return largest;
-    };
-    const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, exposures.count);
-    std::vector<std::future<Plane>> parts;
-    parts.reserve(static_cast<size_t>(workers));
-    for (int i = 0; i < workers; ++i) {
-        parts.push_back(std::async(std::launch::async, worker, i, workers));
+    return largest_error(test_linear.width, test_linear.height, exposures.count, [&](int index) {
+        return flip_ldr(perceived_exposed(test_linear, exposures, index, pixels_per_degree),
+                        perceived_exposed(reference_linear, exposures, index, pixels_per_degree));
+    });
+}
+
+HdrFlipReference::HdrFlipReference(const Image& reference_linear, float pixels_per_degree)
+    : exposures_(flip_exposures(reference_linear)), pixels_per_degree_(pixels_per_degree) {
+    perceived_.resize(static_cast<size_t>(exposures_.count));
+    for (auto& part : in_strides(exposures_.count, [&](int first, int stride) {
+             for (int index = first; index < exposures_.count; index += stride) {
+                 perceived_[static_cast<size_t>(index)] =
+                     perceived_exposed(reference_linear, exposures_, index, pixels_per_degree);
+             }
+         })) {
+        part.get();
     }
-    Plane result(test_linear.width, test_linear.height);
-    for (auto& part : parts) {
-        const Plane largest = part.get();
-        std::transform(result.values.begin(), result.values.end(), largest.values.begin(),
-                       result.values.begin(), [](float a, float b) { return std::max(a, b); });
-    }
-    return result;
+}
+
+Plane HdrFlipReference::error_of(const Image& test_linear) const {
+    return largest_error(test_linear.width, test_linear.height, exposures_.count, [&](int index) {
+        return flip_ldr(perceived_exposed(test_linear, exposures_, index, pixels_per_degree_),
+                        perceived_[static_cast<size_t>(index)]);
+    });
 }
 
 double mean(const Plane& plane) {

@@ -2,7 +2,9 @@
 #include "image/metrics.h"
 
 #include <cmath>
+#include <future>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -116,7 +118,20 @@ Plane luma(const Image& image) {
     return plane;
 }
 
+DisplayedImage displayed(const Image& scene_linear) {
+    Image display = to_display(scene_linear, {});
+    PerceivedImage perceived_display = perceived(display);
+    return {std::move(display), std::move(perceived_display)};
+}
+
 Metrics compare(const Image& test, const Image& reference, HdrFlip hdr_flip) {
+    auto reference_displayed = std::async(std::launch::async, [&reference] { return displayed(reference); });
+    const DisplayedImage test_displayed = displayed(test);
+    return compare(test, test_displayed, reference, reference_displayed.get(), hdr_flip);
+}
+
+Metrics compare(const Image& test, const DisplayedImage& test_displayed, const Image& reference,
+                const DisplayedImage& reference_displayed, HdrFlip hdr_flip) {
     require_same_size(test, reference);
     Metrics metrics;
     metrics.width = test.width;
@@ -128,11 +143,9 @@ Metrics compare(const Image& test, const Image& reference, HdrFlip hdr_flip) {
         return metrics;
     }
     fill_linear(test, reference, metrics);
-    const Image test_display = to_display(test, {});
-    const Image reference_display = to_display(reference, {});
-    metrics.psnr_db = psnr_db(test_display, reference_display);
-    metrics.ssim = ssim(luma(test_display), luma(reference_display));
-    metrics.flip_ldr = mean(flip_ldr(test_display, reference_display));
+    metrics.psnr_db = psnr_db(test_displayed.display, reference_displayed.display);
+    metrics.ssim = ssim(luma(test_displayed.display), luma(reference_displayed.display));
+    metrics.flip_ldr = mean(flip_ldr(test_displayed.perceived, reference_displayed.perceived));
     if (hdr_flip == HdrFlip::leave_out) {
         metrics.flip_hdr = std::numeric_limits<double>::quiet_NaN();
         return metrics;

@@ -43,8 +43,18 @@ struct Metrics {
 // HDR-FLIP takes most of the time of a comparison; left out, it is NaN.
 enum class HdrFlip { compute, leave_out };
 
+// A picture as what follows the view transform sees it: made once for one that is compared several times.
+struct DisplayedImage {
+    Image display;
+    PerceivedImage perceived;
+};
+[[nodiscard]] DisplayedImage displayed(const Image& scene_linear);
+
 // Throws input_error where the sizes differ.
 [[nodiscard]] Metrics compare(const Image& test, const Image& reference, HdrFlip hdr_flip = HdrFlip::compute);
+// The same, with what displayed() made of both.
+[[nodiscard]] Metrics compare(const Image& test, const DisplayedImage& test_displayed, const Image& reference,
+                              const DisplayedImage& reference_displayed, HdrFlip hdr_flip);
 
 // relMSE alone, in the time it takes to read the pixels: mean of (a - b)^2 / (b^2 + 0.01). Rousselle,
 // Knaus and Zwicker, 2011, "Adaptive sampling and reconstruction using greedy error minimization". NaN

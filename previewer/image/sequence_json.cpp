@@ -30,7 +30,9 @@ Json frame_json(const SequenceFrame& entry) {
     return json;
 }
 
-Json whole_json(const SequenceMetrics& m) {
+}  // namespace
+
+Json sequence_figures_json(const SequenceMetrics& m) {
     return {{"frames", m.frames.size()},
             {"width", m.width},
             {"height", m.height},
@@ -50,8 +52,6 @@ Json whole_json(const SequenceMetrics& m) {
             {"flicker_share", number(m.flicker_share)},
             {"flicker_pixels", number(m.flicker_pixels)}};
 }
-
-}  // namespace
 
 double mean_over_frames(const SequenceMetrics& metrics, const NamedMetric& metric) {
     double sum = 0.0;
@@ -77,7 +77,7 @@ Json sequence_to_json(const SequenceMetrics& metrics) {
         json["mean"][name] = number(mean_over_frames(metrics, metric));
         json["worst"][name] = {{"value", number(metric.value(*worst->error))}, {"frame", worst->frame}};
     }
-    json["sequence"] = whole_json(metrics);
+    json["sequence"] = sequence_figures_json(metrics);
     return json;
 }
 

@@ -12,6 +12,9 @@ namespace bounce {
 // reference. What is not finite becomes null.
 [[nodiscard]] nlohmann::ordered_json sequence_to_json(const SequenceMetrics& metrics);
 
+// Its member "sequence" alone: the figures of the whole.
+[[nodiscard]] nlohmann::ordered_json sequence_figures_json(const SequenceMetrics& metrics);
+
 // Mean over the frames of a metric against the reference; NaN where there is none.
 [[nodiscard]] double mean_over_frames(const SequenceMetrics& metrics, const NamedMetric& metric);
 

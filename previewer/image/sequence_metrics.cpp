@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <utility>
 
@@ -10,7 +11,6 @@
 
 #include "core/error.h"
 #include "image/temporal_spectrum.h"
-#include "image/view_transform.h"
 
 namespace bounce {
 namespace {
@@ -88,12 +88,22 @@ void fill_nan(SequenceMetrics& out) {
 
 }  // namespace
 
-void SequenceMeter::add_steps(SequenceFrame& entry, const Image& test, const Image* reference,
+int even_step(const std::vector<int>& frames) {
+    if (frames.size() < 2) {
+        return 0;
+    }
+    const int step = frames[1] - frames[0];
+    const auto uneven = std::adjacent_find(frames.begin(), frames.end(),
+                                           [&](int before, int frame) { return frame - before != step; });
+    return step > 0 && uneven == frames.end() ? step : 0;
+}
+
+void SequenceMeter::add_steps(SequenceFrame& entry, const Image& test, PerceivedImage test_perceived,
+                              const Image* reference, PerceivedImage reference_perceived,
                               const Image* motion) {
-    Image display = to_display(test, {});
     Plane luminance = luma(test);
     const bool later = !metrics_.frames.empty();
-    entry.flip_step = later ? mean(flip_ldr(display, display_)) : k_nan;
+    entry.flip_step = later ? mean(flip_ldr(test_perceived, perceived_)) : k_nan;
     entry.flip_step_reference = entry.tid = k_nan;
     if (later && motion != nullptr) {
         const ReprojectedDifference sums = reprojected_difference(luminance, luminance_, *motion);
@@ -103,18 +113,17 @@ void SequenceMeter::add_steps(SequenceFrame& entry, const Image& test, const Ima
         ++with_motion_;
     }
     if (reference != nullptr) {
-        Image reference_display = to_display(*reference, {});
         Plane reference_luminance = luma(*reference);
         if (later) {
-            entry.flip_step_reference = mean(flip_ldr(reference_display, reference_display_));
+            entry.flip_step_reference = mean(flip_ldr(reference_perceived, reference_perceived_));
             if (motion != nullptr) {
                 all_reference_ += reprojected_difference(reference_luminance, reference_luminance_, *motion);
             }
         }
-        reference_display_ = std::move(reference_display);
+        reference_perceived_ = std::move(reference_perceived);
         reference_luminance_ = std::move(reference_luminance);
     }
-    display_ = std::move(display);
+    perceived_ = std::move(test_perceived);
     luminance_ = std::move(luminance);
     luminance_sum_ += mean(reference != nullptr ? reference_luminance_ : luminance_);
     signals_.push_back(difference(luminance_, reference != nullptr ? &reference_luminance_ : nullptr));
@@ -144,12 +153,19 @@ const SequenceFrame& SequenceMeter::add(int frame, const Image& test, const Imag
     count_not_finite(motion, entry);
     metrics_.nan += entry.nan;
     metrics_.inf += entry.inf;
+    // Looked at once for the error and for the steps to both neighbours.
+    auto reference_displayed = std::async(std::launch::async, [reference] {
+        return reference != nullptr ? displayed(*reference) : DisplayedImage{};
+    });
+    DisplayedImage test_displayed = displayed(test);
+    DisplayedImage seen_reference = reference_displayed.get();
     if (reference != nullptr) {
-        entry.error = compare(test, *reference, hdr_flip_);
+        entry.error = compare(test, test_displayed, *reference, seen_reference, hdr_flip_);
     }
     // Past the first value that is not finite the whole has no figure that could be told.
     if (metrics_.nan + metrics_.inf == 0) {
-        add_steps(entry, test, reference, motion);
+        add_steps(entry, test, std::move(test_displayed.perceived), reference,
+                  std::move(seen_reference.perceived), motion);
     } else {
         entry.flip_step = entry.flip_step_reference = entry.tid = k_nan;
     }

@@ -48,6 +48,9 @@ struct SequenceMetrics {
     double flicker_pixels = 0.0;  // part of the pixels that was looked at
 };
 
+// The distance between the frames where there are two or more and they run forwards at one distance; else 0.
+[[nodiscard]] int even_step(const std::vector<int>& frames);
+
 // Takes a sequence frame by frame. It keeps a luminance plane a frame, 4 bytes a pixel, for the spectrum.
 class SequenceMeter {
   public:
@@ -62,13 +65,14 @@ class SequenceMeter {
     [[nodiscard]] SequenceMetrics finish();
 
   private:
-    void add_steps(SequenceFrame& entry, const Image& test, const Image* reference, const Image* motion);
+    void add_steps(SequenceFrame& entry, const Image& test, PerceivedImage test_perceived,
+                   const Image* reference, PerceivedImage reference_perceived, const Image* motion);
     void fill_tid(SequenceMetrics& out) const;
 
     HdrFlip hdr_flip_;
     SequenceMetrics metrics_;
-    std::vector<Plane> signals_;  // luminance: test less reference, or test
-    Image display_, reference_display_;
+    std::vector<Plane> signals_;                      // luminance: test less reference, or test
+    PerceivedImage perceived_, reference_perceived_;  // of the frame before
     Plane luminance_, reference_luminance_;
     ReprojectedDifference all_, all_reference_;
     std::vector<char> still_;  // without a reference: pixels that never moved

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/animations.h"
 #include "scene/gltf/bounce_extension.h"
@@ -59,7 +60,7 @@ LoadResult load_gltf(const std::filesystem::path& path) {
         throw refused(cause.what());
     } catch (const nlohmann::json::exception& cause) {
         // A property that no rule of the structure check names, and that has an unexpected type.
-        throw refused(fmt::format("its JSON is not what glTF asks for ({})", cause.what()));
+        throw refused(fmt::format("its JSON is not what glTF asks for: {}", json_fault(cause)));
     } catch (const std::bad_alloc&) {
         throw refused("it needs more memory than there is");
     } catch (const std::length_error&) {

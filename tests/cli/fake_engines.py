@@ -12,6 +12,8 @@ import json, os, shutil, sys, time
 if sys.argv[1:] == ["--version"]:
     print("Blender 9.9.9\n\tbuild hash: abcdef")
     sys.exit()
+if "--python-expr" in sys.argv:
+    sys.exit()
 here = os.path.dirname(os.path.abspath(__file__))
 job = json.load(open(sys.argv[-1]))
 script = next(word for word in sys.argv if word.endswith(".py")).rsplit("/", 1)[-1]

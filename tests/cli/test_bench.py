@@ -3,6 +3,7 @@
 import json
 import re
 
+import browser
 import pytest
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation"]
@@ -89,6 +90,32 @@ def test_interpolation_of_reflective_shadow_maps(bounce, tmp_path):
     uniform = [row for row in patterns["rows"] if row[0] == "uniform-radius"]
     assert all(abs(row[3]) < 5 for row in uniform) and all(row[3] < -5 for row in literal)
     assert any("Quadro FX 4000" in line for line in report["paper"])
+
+
+@pytest.mark.skipif(browser.find() is None, reason="chromium is not installed here; Debian's package chromium")
+def test_no_column_of_the_page_is_out_of_sight(bounce, tmp_path):
+    """The widest table, as it is at the paper's size: with what the paper says in each row."""
+    assert bounce("bench", "rsm-table1", "-o", "out", "--quick", "--size", "32x18").returncode == 0
+    page = tmp_path / "out" / "index.html"
+    text = page.read_text()
+    embedded = re.search(r'<script id="results" type="application/json">(.*?)</script>', text, re.DOTALL)[1]
+    results = json.loads(embedded)
+    table = results["tables"][0]
+    assert [column["name"] for column in table["columns"]][-2:] == ["paper", "paper, computed"]
+    for column in table["columns"][-2:]:
+        column["kind"] = "text"
+    for row in table["rows"]:
+        row[-2:] = ["24.2 table, 19.3 lucy, 16.4 droids", "63299 table, 77613 lucy, 95744 droids"]
+    page.write_text(text.replace(embedded, json.dumps(results)))
+    with browser.Browser(browser.find(), 1300, 900) as window:
+        window.open(page)
+        hidden = window.evaluate("[...document.querySelectorAll('.scroll')].filter(box => box.scrollWidth > box.clientWidth)"
+                                 ".map(box => box.parentElement.querySelector('h2').textContent)")
+        assert hidden == []
+        # On a narrow one tables are moved sideways, the page is not.
+        window.resize(420, 900)
+        window.wait("document.documentElement.scrollWidth <= 420")
+        assert window.errors == []
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):

@@ -87,7 +87,7 @@ def points(folder):
 def test_no_error_has_risen(evaluations, scene):
     result = evaluations[scene][1].result()
     assert result.returncode == 0, result.stderr
-    assert "7 points compared, 0 errors have risen" in result.stdout
+    assert "7 points compared, 0 errors have risen, 0 points are missing" in result.stdout
     # The reference's noise is in the errors of both, so its size does not matter here.
     told = "\n".join(line for line in result.stderr.splitlines() if "noise floor" not in line)
     for word in ("warning", "note:"):  # no point is missing, none is new, and the scene is the baseline's
@@ -104,16 +104,28 @@ def test_doubled_light_is_caught(evaluations):
     assert (folder / "results.json").exists(), "the report is written all the same"
 
 
-def test_a_missing_point_is_named(guard, evaluated, tmp_path):
+def test_a_missing_point_fails(guard, evaluated, tmp_path):
+    """A point more than the baseline has is a note; one less ends with 5, until a new baseline is written."""
     shutil.copytree(evaluated, tmp_path / "out")
     baseline = json.loads((GUARD.DATA / f"{SCENE}.json").read_text())
-    baseline["curves"][0]["points"].append({"label": "gone", "relmse": 1, "flip_ldr": 1, "bias": 0})
     del baseline["curves"][0]["points"][0]
-    (tmp_path / "baseline.json").write_text(json.dumps(baseline))
-    result = guard(SCENE, "out", "--resume", "--baseline", tmp_path / "baseline.json")
+
+    def compared(*more):
+        (tmp_path / "baseline.json").write_text(json.dumps(baseline))
+        return guard(SCENE, "out", "--resume", "--baseline", tmp_path / "baseline.json", *more)
+
+    result = compared()
     assert result.returncode == 0, result.stderr
-    assert "Guard, gone: the baseline has this point, the run has not" in result.stderr
     assert "Guard, direct: the run has this point, the baseline has not" in result.stderr
+    for label in ("gone", "lost"):
+        baseline["curves"][0]["points"].append({"label": label, "relmse": 1, "flip_ldr": 1, "bias": 0})
+    result = compared("--save-baseline", tmp_path / "new.json")
+    assert result.returncode == 5, (result.returncode, result.stderr)
+    told = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
+    assert len(told) == 1 and "Guard, gone; Guard, lost" in told[0] and "--save-baseline" in told[0], told
+    assert "6 points compared, 0 errors have risen, 2 points are missing" in result.stdout
+    baseline = json.loads((tmp_path / "new.json").read_text())
+    assert compared().returncode == 0
 
 
 def test_the_same_evaluation_twice(evaluations, evaluated, capsys):

@@ -64,6 +64,13 @@ def test_a_killed_run_goes_on_where_it_stopped(binary, bounce, scene, engines, t
     assert own["points"][0]["rss_peak_bytes"] > 1 << 20
     assert own["points"][0]["gl_peak_bytes"] > 0
     assert [item["engine"] for item in results["startup"]] == ["Bounce", "Cycles", "Eevee", "f3d"]
+    started = results["startup"][0]
+    assert min(started[part] for part in ("start_seconds", "load_seconds", "first_render_seconds")) > 0
+    # The stand-in's first render is what it tells; its start is timed by itself, where that is less than the whole.
+    assert results["startup"][1]["first_render_seconds"] == 0.5
+    for row in results["startup"][1:]:
+        assert row["load_seconds"] > 0
+        assert ("timed by itself" in row["note"]) == (row["start_seconds"] is not None), row
     assert results["passes"][0]["passes"]
 
 
@@ -143,6 +150,8 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         assert window.evaluate("document.querySelectorAll('#plan-ran tr').length") > 0
         assert window.evaluate("document.querySelectorAll('#plan-left-out dd').length") > 0
         assert window.evaluate("document.querySelectorAll('#startup tbody tr').length") == 4
+        shown = window.evaluate("[...document.querySelectorAll('#startup tbody tr:first-child td')].map(cell => cell.textContent)")
+        assert [text == "–" for text in shown] == [False, True, True, False, False, False, False], shown
         bars = "Chart.getChart('passes').data.datasets.map(d => d.data[0])"
         assert sum(window.evaluate(bars)) == pytest.approx(
             1000 * sum(item["seconds"] for item in results["passes"][0]["passes"]), rel=1e-6)
@@ -160,6 +169,16 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         assert [("no point" in row) for row in rows] == ["options" not in item for item in results["budgets"]]
         assert "--technique direct" in rows[-1]
         assert "evaluate" in window.evaluate("document.getElementById('command').textContent")
+
+        # From frame to frame: the reference and every point, sorted by a click on a heading, rising and falling.
+        steps = [point["sequence"]["flip_step_mean"] for point in points]
+        assert window.evaluate("document.querySelectorAll('#sequence tbody tr').length") == len(points) + 1
+        column = "[...document.querySelectorAll('#sequence tbody tr:not(.reference) td:nth-child(3)')].map(c => Number(c.textContent))"
+        for wanted in (sorted(steps), sorted(steps, reverse=True)):
+            window.evaluate("document.querySelector('#sequence th:nth-child(3) button').click()")
+            assert window.evaluate(column) == pytest.approx(wanted, rel=0.01)
+        assert window.evaluate("document.querySelectorAll('#sequence-meanings dt').length") == 3, "no flicker of two frames"
+        assert "HDR" in window.evaluate("document.getElementById('points').textContent")
 
         # Dark where the system is, and no wider than the window at any size.
         light = window.evaluate("getComputedStyle(document.body).backgroundColor")

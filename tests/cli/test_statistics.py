@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """stats.json, and how frame numbers become time."""
 import json
+import os
+import shutil
 
 import gltf_scenes
 import pytest
@@ -26,6 +28,10 @@ def test_the_contract(statistics, scene):
     assert (stats["settings"]["width"], stats["settings"]["height"]) == (16, 9)
     assert stats["settings"]["technique"] == "rsm"
     assert [frame["frame"] for frame in stats["frames"]] == [11, 12]
+    assert stats["startup"].keys() == {"context_ms", "load_ms", "upload_ms", "first_frame_ms"}
+    assert min(stats["startup"].values()) > 0
+    told = sum(stats["startup"].values()) + sum(frame["wall_ms"] for frame in stats["frames"])
+    assert told < stats["run_ms"], "the parts are of the run and do not overlap"
     for frame in stats["frames"]:
         assert frame["wall_ms"] > 0
         assert [entry["name"] for entry in frame["passes"]] == frame["executed"]
@@ -45,6 +51,12 @@ def test_the_contract(statistics, scene):
     assert "vpls" not in stats["settings"], "an option that this technique does not have"
     assert stats["memory"]["gl_peak_bytes"] > 16 * 9 * 16
     assert stats["memory"]["rss_peak_bytes"] > 1 << 20
+
+
+def test_a_name_that_is_no_utf_8(statistics, scene, tmp_path):
+    named = tmp_path / os.fsdecode(b"\xff.glb")
+    shutil.copy(scene, named)
+    assert statistics("--frames", "11", *RSM, of=named)["scene"].endswith("\N{REPLACEMENT CHARACTER}.glb")
 
 
 def occluded():

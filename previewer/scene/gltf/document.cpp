@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string_view>
 #include <system_error>
 
+#include "core/json_fault.h"
 #include "scene/gltf/refusal.h"
 #include "scene/limits.h"
 
@@ -63,10 +63,7 @@ nlohmann::json parse_json(std::span<const uint8_t> text) {
     try {
         return nlohmann::json::parse(text.begin(), text.end());
     } catch (const nlohmann::json::exception& error) {
-        // The library's own text after its "[json.exception...]" tag.
-        const std::string_view what = error.what();
-        const size_t tag = what.find("] ");
-        throw refusal("its JSON cannot be read: {}", tag == what.npos ? what : what.substr(tag + 2));
+        throw refusal("its JSON cannot be read: {}", json_fault(error));
     }
 }
 

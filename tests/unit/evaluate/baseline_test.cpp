@@ -119,6 +119,12 @@ TEST_F(BaselineTest, NamesPointsThatAreInOneAlone) {
     EXPECT_THAT(report.missing, ElementsAre("ISM, 256"));
     EXPECT_THAT(report.added, ElementsAre("ISM, 1024"));
     EXPECT_THAT(report.regressions, IsEmpty());
+    EXPECT_FALSE(report.passed()) << "a point is missing";
+    EXPECT_TRUE(
+        compare_with_baseline(baseline, run({point("64", 0.02, 0.1, 0.0), point("256", 0.01, 0.1, 0.0),
+                                             point("1024", 9.0, 0.9, 0.0)}))
+            .passed())
+        << "a point more is no harm";
     EXPECT_THROW((void)compare_with_baseline(baseline, run({point("1024", 9.0, 0.9, 0.0)})), Error);
 }
 
@@ -140,13 +146,19 @@ TEST_F(BaselineTest, RefusesWhatItCannotUse) {
     EXPECT_THROW((void)read_baseline(folder_ / "missing.json"), Error);
     EXPECT_THROW((void)read_baseline(folder_.path()), Error) << "a folder";
     EXPECT_THAT(refusal("{ half"), HasSubstr("not JSON"));
-    EXPECT_THAT(refusal("{}"), HasSubstr("scene"));
+    EXPECT_THAT(refusal("{}"), testing::EndsWith("cannot be used: it has no \"scene\""));
     EXPECT_THAT(refusal("{\"schema\": \"bounce.baseline/2\"}"), HasSubstr("bounce.baseline/2"));
     const auto json = baseline_json(run({point("64", 0.02, 0.1, 0.0)}));
     auto changed = json;
     changed["curves"][0]["points"][0]["relmse"] = nullptr;
     EXPECT_THAT(refusal(changed.dump()), HasSubstr("relmse of ISM, 64 is not a number"));
+    changed["curves"] = 7;
+    EXPECT_THAT(refusal(changed.dump()), testing::EndsWith("cannot be used: curves is 7, not a list"));
+    changed["frames"] = {"first"};
+    EXPECT_THAT(refusal(changed.dump()), testing::EndsWith("frames is [\"first\"], not a list of numbers"));
     changed = json;
+    changed["tolerances"]["relmse"]["reason"] = 1;
+    EXPECT_THAT(refusal(changed.dump()), testing::EndsWith("reason is 1, not a text"));
     changed["tolerances"]["relmse"]["reason"] = "";
     EXPECT_THAT(refusal(changed.dump()), HasSubstr("a reason"));
     changed = json;

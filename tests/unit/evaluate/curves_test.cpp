@@ -23,6 +23,22 @@ TEST(MakePoint, IsTheMeanOverFrames) {
     EXPECT_NEAR(mean.flip_ldr, 0.3, 1e-12);
     EXPECT_NEAR(mean.bias, -0.01, 1e-12);
     EXPECT_EQ(mean.frames.size(), 2U);
+    EXPECT_TRUE(std::isnan(mean.flip_hdr)) << "no frame has it";
+    EXPECT_FALSE(mean.sequence);
+}
+
+TEST(MakePoint, MeansOfEveryFigure) {
+    FrameError first{1, 0.1, 0.02, 0.3, 0.2, 0.9, 30, 0.01, 0};
+    FrameError second{2, 0.1, 0.02, 0.5, 0.2, 0.7, 40, 0.01, 0};
+    first.flip_hdr = 0.25;
+    second.flip_hdr = 0.75;
+    const CurvePoint mean = make_point("x", {first, second});
+    EXPECT_NEAR(mean.relmse_exposed, 0.4, 1e-12);
+    EXPECT_NEAR(mean.ssim, 0.8, 1e-12);
+    EXPECT_NEAR(mean.psnr_db, 35.0, 1e-12) << "of the decibels";
+    EXPECT_NEAR(mean.flip_hdr, 0.5, 1e-12);
+    second.flip_hdr = k_nan;
+    EXPECT_TRUE(std::isnan(make_point("x", {first, second}).flip_hdr)) << "not of a part of the frames";
 }
 
 TEST(ParetoFront, KeepsWhatNothingBeats) {

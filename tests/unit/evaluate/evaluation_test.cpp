@@ -2,10 +2,12 @@
 #include "evaluate/evaluation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "environment.h"
@@ -13,6 +15,7 @@
 #include "fake_programs.h"
 #include "file_size_limit.h"
 #include "temporary_folder.h"
+#include "triangle_gltf.h"
 
 namespace bounce {
 namespace {
@@ -165,6 +168,40 @@ TEST_F(EvaluateTest, AGivenReferenceNeedsNoBlender) {
     EXPECT_EQ(calls("bounce_calls"), 3) << "a wrong size is refused before anything is drawn";
 }
 
+// Pictures of 0.55 and 0.45 in turn against 0.5, as half floats: (0.05 / 0.5)^2, and 0.1 from frame to frame.
+TEST_F(EvaluateTest, FramesInARowAreASequence) {
+    test::write_constant(folder_ / "ref.exr", 0.5F, 8, 4);
+    for (int frame = 1; frame <= 8; ++frame) {
+        test::write_constant(folder_ / ("picture.000" + std::to_string(frame) + ".exr"),
+                             frame % 2 == 0 ? 0.55F : 0.45F, 8, 4);
+    }
+    Image still(8, 4);
+    for (size_t i = 2; i < still.rgb.size(); i += 3) still.rgb[i] = 5.0F;
+    write_image(folder_ / "motion.exr", still);
+    options_.given_reference = (folder_ / "ref.exr").string();
+    options_.cycles_spp.clear();
+    options_.frames = {1, 2, 3, 4, 5, 6, 7, 8};
+    const Evaluation result = evaluate(options_);
+    EXPECT_EQ(result.sequence_step, 1);
+    EXPECT_TRUE(result.motion);
+    EXPECT_EQ(calls("motion_calls"), 1) << "once for all points";
+    for (const Curve& curve : result.curves) {
+        for (const CurvePoint& point : curve.points) {
+            ASSERT_TRUE(point.sequence) << point.label;
+            EXPECT_NEAR(point.sequence->flicker_power, 0.01, 1e-4);
+            EXPECT_NEAR(point.sequence->tid, 0.1, 1e-3);
+            EXPECT_TRUE(std::isfinite(point.flip_hdr));
+        }
+    }
+    const size_t shown = shown_points(result).size();
+    EXPECT_EQ(result.pictures.size(), 8 * shown) << "others are not kept in memory";
+    options_.frames = {1};
+    const Evaluation one = evaluate(options_);
+    EXPECT_EQ(one.sequence_step, 0);
+    EXPECT_FALSE(one.curves[0].points[0].sequence);
+    EXPECT_EQ(calls("motion_calls"), 1) << "a frame alone costs nothing more";
+}
+
 TEST_F(EvaluateTest, AGivenReferenceAndALadder) {
     test::write_constant(folder_ / "ref.exr", 0.5F, 8, 4);
     options_.given_reference = (folder_ / "ref.exr").string();
@@ -237,8 +274,8 @@ TEST_F(EvaluateTest, CyclesFailureIsASentence) {
 
 TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
     const Environment none("BLENDER_EXTERN_DRACO_LIBRARY_PATH", "");
-    std::ofstream(folder_ / "scene.glb") << R"({"nodes": [{"camera": 0}],
-        "extensionsUsed": ["KHR_draco_mesh_compression", "BOUNCE_scene"]})";
+    options_.scene =
+        test::write_triangle(folder_ / "scene.gltf", {{"extensionsUsed", {"KHR_draco_mesh_compression"}}});
     try {
         (void)evaluate(options_);
         FAIL() << "evaluated";
@@ -252,6 +289,29 @@ TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
     EXPECT_FALSE(evaluate(options_).references[0].cached);
     std::filesystem::remove_all(folder_ / "build");
     EXPECT_TRUE(evaluate(options_).references[0].cached) << "what is finished needs no Draco";
+}
+
+TEST_F(EvaluateTest, AChangedBufferBesideAFileMakesAnotherReference) {
+    options_.scene = test::write_triangle(folder_ / "scene.gltf");
+    EXPECT_FALSE(evaluate(options_).references[0].cached);
+    EXPECT_TRUE(evaluate(options_).references[0].cached);
+    {
+        const float x = 3.6F;  // of the third corner, from 3.2: the box, and so the framing, stays
+        std::fstream data(folder_ / "triangle.bin", std::ios::in | std::ios::out | std::ios::binary);
+        data.seekp(24);
+        data.write(reinterpret_cast<const char*>(&x), sizeof x);
+    }
+    const Evaluation changed = evaluate(options_);
+    EXPECT_FALSE(changed.references[0].cached);
+    EXPECT_TRUE(changed.curves[0].points[0].measured.empty()) << "Cycles' own points as well";
+}
+
+TEST_F(EvaluateTest, BlenderIsToldWhatBounceShowsWhereAFileSaysNothing) {
+    options_.scene = test::write_triangle(folder_ / "scene.gltf");
+    (void)evaluate(options_);
+    const auto job = nlohmann::json::parse(blender_jobs().front());
+    EXPECT_EQ(job["defaults"]["cameras"].size(), 2U) << "one a frame";
+    EXPECT_GT(job["defaults"]["world"]["strength"], 0.0);
 }
 
 TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
@@ -359,6 +419,9 @@ TEST_F(EvaluateTest, LooksIntoTheFrames) {
     EXPECT_EQ(result.passes[0].left_out[0].reason, "nothing moves");
     ASSERT_EQ(result.startups.size(), 2U);
     EXPECT_EQ(result.startups[0].engine, "Bounce");
+    EXPECT_GT(result.startups[0].start_seconds, 0.040);
+    EXPECT_DOUBLE_EQ(result.startups[0].load_seconds, 0.250);
+    EXPECT_DOUBLE_EQ(result.startups[0].first_render_seconds, 0.070);
     EXPECT_EQ(result.startups[1].first_render_seconds, 3.0);
 }
 

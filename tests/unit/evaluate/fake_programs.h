@@ -26,11 +26,14 @@ inline void write_constant(const std::filesystem::path& path, float value, int w
 }
 
 // clang-format off
-// `bounce render`: copies picture.exr to the output of each frame and tells of 20 ms a frame, 30 ms in the
+// `bounce render`: copies picture.exr, or picture.0001.exr of frame 1 where that is there, to the output of each frame
+// (motion.exr with --show motion, told in motion_calls; where there is none it fails) and tells of 20 ms a frame, 30 ms in the
 // first of three renders. Its arguments are appended to bounce_calls, a line a call; those of a run that times passes to pass_calls.
 inline std::filesystem::path fake_bounce(const std::filesystem::path& folder) {
     return write_script(folder / "bounce", "#!/bin/sh\nset -e\nhere='" + folder.string() + R"sh('
+source=picture
 case "$*" in
+  *"--show motion"*) echo "$@" >> "$here/motion_calls"; source=motion;;
   *--no-pass-times*) echo "$@" >> "$here/bounce_calls";;
   *) echo "$@" >> "$here/pass_calls";;
 esac
@@ -45,10 +48,12 @@ done
 items=
 for frame in $frames; do
   number=$(printf %04d "$frame")
-  cp "$here/picture.exr" "$(echo "$output" | sed "s/####/$number/")"
+  picture="$here/$source.exr"
+  if [ -e "$here/$source.$number.exr" ]; then picture="$here/$source.$number.exr"; fi
+  cp "$picture" "$(echo "$output" | sed "s/####/$number/")"
   items="$items${items:+,}{\"frame\":$frame,\"time_s\":0,\"wall_ms\":20,\"wall_ms_all\":[30,20,20],\"passes\":[{\"name\":\"gbuffer\",\"gpu_ms\":5,\"gpu_ms_all\":[4,5,9],\"cpu_ms\":1}]}"
 done
-echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames\":[$items],\"left_out\":[{\"pass\":\"deform\",\"reason\":\"nothing moves\"}],\"approximations\":[],\"memory\":{\"gl_peak_bytes\":7,\"rss_peak_bytes\":8}}" > "$stats"
+echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames\":[$items],\"left_out\":[{\"pass\":\"deform\",\"reason\":\"nothing moves\"}],\"approximations\":[],\"startup\":{\"context_ms\":40,\"load_ms\":200,\"upload_ms\":50,\"first_frame_ms\":70},\"run_ms\":0,\"memory\":{\"gl_peak_bytes\":7,\"rss_peak_bytes\":8}}" > "$stats"
 )sh");
 }
 

@@ -16,6 +16,7 @@ namespace bounce {
 namespace {
 
 using test::TemporaryFolder;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 const PreviewRun k_run{"RSM", "112 samples", {"--technique", "rsm", "--rsm-samples", "112"}};
@@ -73,6 +74,9 @@ TEST(RunPreview, PassesArgumentsAndReadsStats) {
     EXPECT_EQ(read_image(result.frames[1].image).width, 4);
     EXPECT_EQ(result.gl_renderer, "r");
     EXPECT_GE(result.startup_seconds, 0.0);
+    EXPECT_GT(result.start_seconds, 0.040) << "the process's own beside the context";
+    EXPECT_DOUBLE_EQ(result.load_seconds, 0.250);
+    EXPECT_DOUBLE_EQ(result.first_frame_seconds, 0.070);
     std::ifstream in(folder / "bounce_calls");
     const std::string call{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     EXPECT_THAT(call, HasSubstr("render a scene.glb -o"));
@@ -95,7 +99,7 @@ TEST(RunPreview, KeepsTheCodesThatTheUserCanMend) {
     const auto no_gl = failure_of("#!/bin/sh\necho 'error: no OpenGL 4.5 here' >&2\nexit 4\n");
     EXPECT_EQ(no_gl.first, ExitCode::no_opengl);
     EXPECT_THAT(no_gl.second, HasSubstr("RSM, 112 samples"));
-    EXPECT_THAT(no_gl.second, testing::EndsWith("no OpenGL 4.5 here"));
+    EXPECT_THAT(no_gl.second, EndsWith("no OpenGL 4.5 here"));
     EXPECT_EQ(failure_of("#!/bin/sh\nexit 3\n").first, ExitCode::input_refused);
     EXPECT_EQ(failure_of("#!/bin/sh\nexit 2\n").first, ExitCode::failed)
         << "our own arguments, not the user's";
@@ -105,8 +109,18 @@ TEST(RunPreview, KeepsTheCodesThatTheUserCanMend) {
 TEST(RunPreview, RefusesStatsThatDoNotFit) {
     const std::string prefix =
         "#!/bin/sh\nfor word; do [ \"$last\" = --stats ] && stats=$word; last=$word; done\n";
-    EXPECT_THAT(failure_of(prefix + "true\n").second, HasSubstr("stats.json"));
-    EXPECT_THAT(failure_of(prefix + "echo '{\"frames\": 3' > \"$stats\"\n").second, HasSubstr("stats.json"));
+    EXPECT_THAT(failure_of(prefix + "true\n").second,
+                EndsWith("stats.json cannot be used: it breaks off at line 1, column 1"));
+    EXPECT_THAT(failure_of(prefix + "echo '{\"frames\": 3' > \"$stats\"\n").second,
+                EndsWith("stats.json cannot be used: it breaks off at line 2, column 1"));
+    EXPECT_THAT(failure_of(prefix + "echo '{\"frames\": [{}]}' > \"$stats\"\n").second,
+                EndsWith("stats.json cannot be used: it has no \"frame\""));
+    EXPECT_THAT(
+        failure_of(prefix +
+                   "echo '{\"frames\": [{\"frame\": 1, \"wall_ms\": 1}], \"startup\": {\"load_ms\": -1}}' "
+                   "> \"$stats\"\n")
+            .second,
+        EndsWith("stats.json cannot be used: load_ms is -1, not a number of at least 0"));
     EXPECT_THAT(
         failure_of(prefix + "echo '{\"frames\": [{\"frame\": 7, \"wall_ms\": 1}]}' > \"$stats\"\n").second,
         HasSubstr("frames 7, not 1"));

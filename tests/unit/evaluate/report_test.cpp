@@ -93,18 +93,73 @@ TEST(ResultsJson, NotANumberBecomesNull) {
 TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
     const std::string csv = results_csv(example());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
-    EXPECT_THAT(
-        csv,
-        HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,,0.1,,,-0.01,true,false,,,3.04964,30.4964,interpolated\n"));
-    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,\n"));
+    EXPECT_THAT(csv,
+                HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,0.02,0.1,0.9,30,-0.01,true,false,,,3.04964,30.4964,"
+                          "interpolated,,,,,,,,,,,\n"));
+    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,,,,,,,,,,,,\n"));
     // Every row has as many columns as the head.
     const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     size_t start = 0;
     while (start < csv.size()) {
         const size_t end = csv.find('\n', start);
-        EXPECT_EQ(columns(csv.substr(start, end - start)), 16) << csv.substr(start, end - start);
+        EXPECT_EQ(columns(csv.substr(start, end - start)), 27) << csv.substr(start, end - start);
         start = end + 1;
     }
+}
+
+// As an evaluation of frames 1 and 2 leaves it, with TID and HDR-FLIP and too short for a spectrum.
+Evaluation sequence() {
+    Evaluation evaluation = example();
+    evaluation.frames = {1, 2};
+    evaluation.sequence_step = 1;
+    evaluation.motion = true;
+    double step = 0.125;
+    for (Curve& curve : evaluation.curves) {
+        for (CurvePoint& item : curve.points) {
+            SequenceMetrics metrics;
+            metrics.frames.resize(2);
+            metrics.mean_luminance = 0.5;
+            metrics.flip_step_mean = metrics.flip_step_max = step;
+            metrics.flip_step_max_frame = 2;
+            metrics.flip_step_reference_mean = metrics.flip_step_reference_max = 0.0625;
+            metrics.tid = 0.25;
+            metrics.tid_relative = 0.5;
+            metrics.tid_reference = 0.375;
+            metrics.tid_coverage = 1.0;
+            metrics.flicker_power = metrics.flicker_share = std::numeric_limits<double>::quiet_NaN();
+            item.sequence = metrics;
+            item.flip_hdr = item.frames[0].flip_hdr = 0.875;
+            step += 0.0625;
+        }
+    }
+    return evaluation;
+}
+
+TEST(ResultsCsv, HasTheSequencesFiguresInTheMeansRow) {
+    const std::string csv = results_csv(sequence());
+    EXPECT_THAT(csv, HasSubstr(",cycles_time,flip_hdr,flip_step_mean,flip_step_max,flip_step_reference_mean,"
+                               "flip_step_reference_max,tid,tid_relative,tid_reference,tid_coverage,"
+                               "flicker_power,flicker_share\n"));
+    EXPECT_THAT(csv, HasSubstr(",interpolated,0.875,0.25,0.25,0.0625,0.0625,0.25,0.5,0.375,1,,\n"));
+    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,,0.875,,,,,,,,,,\n"));
+}
+
+TEST(ResultsJson, HasTheSequenceOfEachPoint) {
+    const auto json = results_json(sequence());
+    EXPECT_EQ(json.at("sequence").at("step"), 1);
+    EXPECT_EQ(json["sequence"].at("motion"), true);
+    const auto& item = json["curves"][1]["points"][0];
+    EXPECT_EQ(item.at("flip_hdr"), 0.875);
+    EXPECT_EQ(item.at("frames")[0].at("flip_hdr"), 0.875);
+    EXPECT_EQ(item.at("ssim"), 0.9);
+    EXPECT_EQ(item.at("sequence").at("flip_step_mean"), 0.25);
+    EXPECT_EQ(item["sequence"].at("flip_step_reference_mean"), 0.0625);
+    EXPECT_EQ(item["sequence"].at("tid_reference"), 0.375);
+    EXPECT_TRUE(item["sequence"].at("flicker_power").is_null());
+    const auto single = results_json(example());
+    EXPECT_TRUE(single.at("sequence").is_null());
+    EXPECT_TRUE(single["curves"][0]["points"][0].at("sequence").is_null());
+    EXPECT_TRUE(single["curves"][0]["points"][0].at("flip_hdr").is_null());
 }
 
 TEST(ResultsTable, ShowsTimeToEqualError) {

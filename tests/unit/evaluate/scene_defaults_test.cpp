@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <gmock/gmock.h>
 #include <glm/glm.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -17,6 +17,7 @@
 #include "evaluate/cycles_runner.h"
 #include "image/image_io.h"
 #include "temporary_folder.h"
+#include "triangle_gltf.h"
 
 namespace bounce {
 namespace {
@@ -24,38 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using test::TemporaryFolder;
-
-// Turned, off the origin and unlike its mirror pictures; metres, glTF's axes.
-const std::array<glm::dvec3, 3> k_corners{glm::dvec3(3, 1, -2), glm::dvec3(4, 1.2, -1.5),
-                                          glm::dvec3(3.2, 2.5, -2.3)};
-
-fs::path write_triangle(const fs::path& path, const json& more = json::object()) {
-    json gltf = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-        "materials": [{"name": "grey", "doubleSided": true,
-            "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.1, 0.1, 1], "metallicFactor": 0}}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-            "min": [3, 1, -2.3], "max": [4, 2.5, -1.5]}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "buffers": [{"uri": "triangle.bin", "byteLength": 36}]})");
-    gltf.update(more, true);
-    std::ofstream(path) << gltf.dump();
-    std::ofstream data(path.parent_path() / "triangle.bin", std::ios::binary);
-    for (const glm::dvec3& corner : k_corners) {
-        const glm::vec3 single(corner);
-        data.write(reinterpret_cast<const char*>(&single), sizeof single);
-    }
-    return path;
-}
+using test::write_triangle;
 
 // Column and row, from the top left, in pixels.
 glm::dvec2 project(const json& camera, const glm::dvec3& point, int width, int height) {
     glm::dmat4 world_from_camera;
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
-            world_from_camera[column][row] = camera["world_from_camera"][static_cast<size_t>(column)]
-                                                   [static_cast<size_t>(row)];
+            world_from_camera[column][row] =
+                camera["world_from_camera"][static_cast<size_t>(column)][static_cast<size_t>(row)];
         }
     }
     const glm::dvec3 seen(glm::inverse(world_from_camera) * glm::dvec4(point, 1.0));
@@ -100,12 +78,25 @@ TEST(SceneDefaults, ACameraOfTheFileIsNamedAndALightLeavesTheSkyBlack) {
     EXPECT_EQ(defaults["world"]["strength"], 0.0);
 }
 
+// As an export of a .blend without an active camera: Bounce frames the scene, and so must Blender.
+TEST(SceneDefaults, AFileOfOursThatNamesNoCameraIsFramed) {
+    const TemporaryFolder folder;
+    const json more = json::parse(R"({"nodes": [{"mesh": 0}, {"camera": 0}], "scenes": [{"nodes": [0, 1]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "extensionsUsed": ["BOUNCE_scene"],
+        "extensions": {"BOUNCE_scene": {"version": 1, "blender_version": "3.4.1", "lights": [],
+            "frames": {"start": 1, "end": 2, "fps": 24}}}})");
+    const json defaults = scene_defaults(write_triangle(folder / "a.gltf", more), {1}, 16, 9);
+    EXPECT_FALSE(defaults.contains("camera_node"));
+    EXPECT_EQ(defaults["cameras"].size(), 1U);
+}
+
 TEST(SceneDefaults, FramesTheWholeSceneUnderASky) {
     const TemporaryFolder folder;
     const json defaults = scene_defaults(write_triangle(folder / "a.gltf"), {1, 7}, 64, 36);
     EXPECT_FALSE(defaults.contains("camera_node"));
     EXPECT_EQ(defaults["cameras"][1]["frame"], 7);
-    for (const glm::dvec3& corner : k_corners) {
+    for (const glm::dvec3& corner : test::k_triangle) {
         const glm::dvec2 pixel = project(defaults["cameras"][0], corner, 64, 36);
         EXPECT_TRUE(pixel.x > 0 && pixel.x < 64 && pixel.y > 0 && pixel.y < 36) << pixel.x << ", " << pixel.y;
     }
@@ -134,7 +125,7 @@ TEST(SceneDefaults, CyclesShowsWhatBounceFrames) {
     const json defaults = scene_defaults(gltf, {1}, 64, 36);
     std::array<glm::dvec2, 3> corners{};
     for (size_t i = 0; i < 3; ++i) {
-        corners.at(i) = project(defaults["cameras"][0], k_corners.at(i), 64, 36);
+        corners.at(i) = project(defaults["cameras"][0], test::k_triangle.at(i), 64, 36);
     }
     const double sky = defaults["world"]["strength"];
     size_t inside = 0;

@@ -2,6 +2,8 @@
 #include "evaluate/scene_files.h"
 
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -10,26 +12,15 @@
 namespace bounce {
 namespace {
 
-using test::TemporaryFolder;
-
-bool leaves_to_defaults(const std::string& json) {
-    const TemporaryFolder folder;
-    std::ofstream(folder / "a.gltf") << json;
-    return gltf_leaves_to_defaults(folder / "a.gltf");
-}
-
-TEST(GltfLeavesToDefaults, WhereCameraOrWorldIsNotSaid) {
-    EXPECT_TRUE(leaves_to_defaults(R"({})"));
-    EXPECT_TRUE(leaves_to_defaults(R"({"nodes": [{"camera": 0}]})")) << "the world is not said";
-    EXPECT_TRUE(leaves_to_defaults(R"({"nodes": [{}], "extensionsUsed": ["BOUNCE_scene"]})"));
-    EXPECT_FALSE(leaves_to_defaults(R"({"nodes": [{"camera": 0}], "extensionsUsed": ["BOUNCE_scene"]})"));
-}
-
-TEST(GltfLeavesToDefaults, NotOfWhatTheLoaderRefuses) {
-    for (const char* text : {"no glTF", "[]", R"({"nodes": {"camera": 0}, "extensionsUsed": 3})"}) {
-        EXPECT_NO_THROW((void)leaves_to_defaults(text)) << text;
+TEST(IsGltf, TellsAnObjectFromAnythingElse) {
+    const test::TemporaryFolder folder;
+    const std::pair<std::string, bool> cases[] = {
+        {R"({"asset": {}})", true}, {"{}", true}, {"no glTF", false}, {"[]", false}, {"", false}};
+    for (const auto& [text, expected] : cases) {
+        std::ofstream(folder / "a.gltf") << text;
+        EXPECT_EQ(is_gltf(folder / "a.gltf"), expected) << text;
     }
-    EXPECT_FALSE(leaves_to_defaults("no glTF"));
+    EXPECT_FALSE(is_gltf(folder / "missing.gltf"));
 }
 
 }  // namespace

@@ -48,6 +48,8 @@ TEST_F(StoredPointTest, IsFoundAgain) {
     EXPECT_EQ(found->frames[1].image, file("frame.0024.exr"));
     EXPECT_EQ(found->gl_renderer, "r");
     EXPECT_GT(found->startup_seconds, -1e-9);
+    EXPECT_GT(found->start_seconds, 0.040);
+    EXPECT_DOUBLE_EQ(found->load_seconds, 0.250);
 }
 
 TEST_F(StoredPointTest, AHalfWrittenOrDamagedOneIsNone) {

@@ -106,15 +106,27 @@ TEST(TuningFile, RefusesWhatItCannotUse) {
     write("{\"schema\": \"bounce.tuning/2\"}");
     EXPECT_THAT(refusal(path), HasSubstr("bounce.tuning/2"));
     write("{\"schema\": \"bounce.tuning/1\", \"scene\": \"a\"}");
-    EXPECT_THAT(refusal(path), HasSubstr("width"));
+    EXPECT_THAT(refusal(path), HasSubstr("it has no \"width\""));
     auto json = tuning_json(example());
     json["budgets"][0]["options"] = "--vpls 64";
     write(json.dump());
-    EXPECT_THAT(refusal(path), HasSubstr("cannot be used"));
+    EXPECT_THAT(refusal(path),
+                testing::EndsWith("tuning.json cannot be used: options is \"--vpls 64\", not a "
+                                  "list of texts"));
     json = tuning_json(example());
     json["budgets"][0]["relmse"] = nullptr;
     write(json.dump());
-    EXPECT_THAT(refusal(path), HasSubstr("cannot be used"));
+    EXPECT_THAT(refusal(path), testing::EndsWith("cannot be used: relmse is null, not a number"));
+    json["budgets"] = 3;
+    write(json.dump());
+    EXPECT_THAT(refusal(path), testing::EndsWith("cannot be used: budgets is 3, not a list"));
+    json["machine"] = "mine";
+    write(json.dump());
+    EXPECT_THAT(refusal(path),
+                testing::EndsWith("cannot be used: a text stands where an object or a list belongs"));
+    json.erase("machine");
+    write(json.dump());
+    EXPECT_THAT(refusal(path), testing::EndsWith("cannot be used: it has no \"machine\""));
 }
 
 }  // namespace

@@ -85,6 +85,18 @@ TEST(Flip, AgreesWithTheAuthorsProgramOnHdr) {
     EXPECT_NEAR(at(error, 63, 47), 0.1479451, 2e-5);
 }
 
+// To the bit, whichever is asked.
+TEST(Flip, WhatIsLookedAtOnceHasTheSameError) {
+    const Pair pair = pattern(true);
+    const HdrFlipReference reference(pair.reference);
+    EXPECT_EQ(reference.error_of(pair.test).values, flip_hdr(pair.test, pair.reference).values);
+    const Image grey = constant(pair.test.width, pair.test.height, 0.2F, 0.2F, 0.2F);
+    EXPECT_EQ(reference.error_of(grey).values, flip_hdr(grey, pair.reference).values);
+    const Pair display = pattern(false);
+    EXPECT_EQ(flip_ldr(perceived(display.test), perceived(display.reference)).values,
+              flip_ldr(display.test, display.reference).values);
+}
+
 TEST(Flip, EqualImagesHaveNoError) {
     const Pair pair = pattern(true);
     EXPECT_EQ(mean(flip_ldr(pair.test, pair.test)), 0.0);

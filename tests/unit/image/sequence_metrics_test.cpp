@@ -36,6 +36,15 @@ float flickering(int frame) {
     return frame % 2 == 0 ? 0.55F : 0.45F;
 }
 
+TEST(EvenStep, IsTheDistanceOfFramesThatRunForwards) {
+    EXPECT_EQ(even_step({1, 2, 3}), 1);
+    EXPECT_EQ(even_step({1, 24}), 23);
+    EXPECT_EQ(even_step({-3, -1, 1}), 2);
+    for (const std::vector<int>& none : {std::vector<int>{}, {7}, {1, 2, 4}, {3, 2, 1}, {5, 5}}) {
+        EXPECT_EQ(even_step(none), 0);
+    }
+}
+
 TEST(SequenceMetrics, FlickerByHand) {
     SequenceMeter meter;
     const Image motion = still();

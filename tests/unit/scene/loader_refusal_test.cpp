@@ -26,15 +26,16 @@ TEST(LoaderRefusal, FilesThatAreNoGltf) {
     expect("empty.glb", "", "is empty");
     expect("text.gltf", "hello", "neither binary glTF nor JSON");
     expect("list.gltf", "[]", "neither binary glTF nor JSON");
-    expect("broken.gltf", "{\"asset\":", "its JSON cannot be read");
+    expect("broken.gltf", "{\"asset\":", "its JSON cannot be read: it breaks off at line 1, column 10");
     expect("other.gltf", "{\"a\": 1}", "no asset.version");
     expect("old.gltf", R"({"asset": {"version": "1.0"}})", "version \"1.0\"");
     expect("new.gltf", R"({"asset": {"version": "2.1", "minVersion": "2.1"}})", "needs glTF");
     expect("short.glb", "glTF", "truncated");
     expect("deep.gltf", "{\"asset\":" + std::string(100000, '['), "levels deep");
-    expect("overflow.gltf", R"({"asset": {"version": "2.0"}, "x": 1e999})", "its JSON cannot be read");
+    expect("overflow.gltf", R"({"asset": {"version": "2.0"}, "x": 1e999})",
+           "its JSON cannot be read: the number 1e999 in it is too large");
     expect("latin.gltf", "{\"asset\": {\"version\": \"2.0\", \"generator\": \"\xff\"}}",
-           "its JSON cannot be read");
+           "its JSON cannot be read: it is no valid JSON at line 1, column 44");
 }
 
 TEST(LoaderRefusal, TruncatedAnywhere) {
