@@ -77,8 +77,9 @@ TextureHandle add_close(FrameGraph& graph, const PassContext& context, const Vpl
         builder.read(atlas);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
         return [context, set, atlas, out](const PassResources& resources) {
-            context.programs.compute("passes/ism_close.comp", {{"MAP_SIZE", std::to_string(set.map_size)}})
-                .use();
+            gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
+            if (set.distant) defines["DISTANT"] = "1";
+            context.programs.compute("passes/ism_close.comp", defines).use();
             context.uniforms.bind(UBO_ISM, set.uniforms);
             resources.texture(atlas).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);

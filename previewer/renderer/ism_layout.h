@@ -48,8 +48,10 @@ struct IsmLayout {
                                             size_t occluders, double mean_radius);
 
 // The same for imperfect reflective shadow maps; their points, `reflectors`, stand behind `first` others.
-// What hides those is looked up in the maps that mean_radius is of.
+// What hides those is looked up in the maps that mean_radius is of. dense_area: that one of all reflectors
+// stands for where they are dense, render units; 0 where all stand for the same.
 [[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings,
-                                             size_t reflectors, size_t first, double mean_radius);
+                                             size_t reflectors, size_t first, double mean_radius,
+                                             double dense_area = 0.0);
 
 }  // namespace bounce

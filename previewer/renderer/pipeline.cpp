@@ -56,7 +56,7 @@ struct BouncedLights {
 
 passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints& scene) {
     return {.scene = scene,
-            .large_triangles = static_cast<int>(in.points->large_triangles()),
+            .large_triangles = in.triangles_inside,
             .splat = in.settings.splat,
             .close = in.plan.close_maps,
             .pull_push = {in.settings.pull_push, in.settings.pull_push_levels, in.settings.pull_threshold,
@@ -68,8 +68,9 @@ passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const pass
     passes::VplSet world = in.world.lights;
     world.vpls = graph.import_buffer("world lights", *in.world_lights);
     passes::IsmInputs inputs = ism_inputs(in, scene);
+    inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = passes::Splat::disks;
-    inputs.close = false;
+    inputs.close = in.plan.close_world;
     world.atlas = add_ism(graph, in.context, inputs, world).atlas;
     return world;
 }
@@ -78,10 +79,9 @@ passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const pass
 void add_lights(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
                 passes::VplSet set, BouncedLights& lit) {
     passes::IsmAtlas maps;
-    const bool occluded = in.plan.occluded || in.plan.world_bounces > 0;
-    if (occluded && in.settings.visibility == Visibility::shadow_maps) {
+    if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
         maps.atlas = passes::add_classic_maps(graph, in.context, set);
-    } else if (occluded && in.settings.visibility == Visibility::ism) {
+    } else if (in.plan.occluded) {
         maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
     }
     set.atlas = maps.atlas;
@@ -109,8 +109,8 @@ passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, cons
     return add_vpls_from_irsms(graph, in.context, source, next.lights, in.plan.glossy).set;
 }
 
-// Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's lights,
-// then of the world.
+// Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
+// lights, then of the world.
 BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                           const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene,
                           const passes::VplSet& world) {
@@ -220,7 +220,9 @@ void add_all_dots(FrameGraph& graph, const PipelineInputs& in, const passes::GBu
                   const BouncedLights& lit, TextureHandle picture) {
     std::vector<passes::VplDots> dots;
     for (size_t i = 0; i < lit.sets.size(); ++i) {
-        const int bounce = static_cast<int>(i) + 1;
+        // Those of the scene's lights, then those of the world.
+        const size_t first = i < in.bounces.size() ? 0 : in.bounces.size();
+        const int bounce = static_cast<int>(i - first) + 1;
         if (in.settings.shown_bounce == 0 || in.settings.shown_bounce == bounce) {
             dots.push_back({lit.sets[i], bounce});
         }

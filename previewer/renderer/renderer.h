@@ -78,6 +78,7 @@ class Renderer {
         std::vector<Bounce> bounces;  // of the scene's lights
         Bounce world;                 // its own lights, where they are planned
         std::vector<Bounce> world_bounces;
+        int triangles = 0;  // large ones in the maps of lights within the scene
     };
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.

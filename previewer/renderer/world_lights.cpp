@@ -23,7 +23,8 @@ glm::dvec3 on_sphere(double u, double v) {
 
 }  // namespace
 
-std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout& layout) {
+std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout& layout,
+                                      const DistantMaps& maps) {
     std::vector<gpu::GpuVpl> lights(static_cast<size_t>(layout.vpls));
     const double solid_angle = 4.0 * std::numbers::pi / layout.vpls;
     for (int i = 0; i < layout.vpls; ++i) {
@@ -38,9 +39,9 @@ std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout
         const auto column = static_cast<uint32_t>(i % layout.columns * layout.map_size);
         const auto row = static_cast<uint32_t>(i / layout.columns * layout.map_size);
         gpu::GpuVpl& light = lights[static_cast<size_t>(i)];
-        light.position = glm::vec4(0.0F, 0.0F, 0.0F, static_cast<float>(solid_angle));
+        light.position = glm::vec4(maps.center, static_cast<float>(solid_angle));
         light.normal = glm::vec4(glm::vec3(way), 1.0F);
-        light.tangent = glm::vec4(glm::vec3(tangent), 1e30F);
+        light.tangent = glm::vec4(glm::vec3(tangent), maps.reach);
         light.bitangent =
             glm::vec4(glm::vec3(glm::cross(way, tangent)), std::bit_cast<float>(column | row << 16U));
         light.intensity = glm::vec4(radiance * static_cast<float>(solid_angle), 0.0F);

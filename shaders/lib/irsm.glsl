@@ -55,8 +55,9 @@ int source_rows() {
     return 1;
 }
 
-// Solid angle from the light (of one at infinity: the area across its rays) of the area that the point stands for. Points are samples of the surfaces' area, so that in
-// the mean A cos / d^2 is right however near they are; only single ones are kept from outshining whole maps.
+// Solid angle from the light (of one at infinity: the area across its rays) of the area that the point stands for.
+// Points are samples of the surfaces' area, so that in the mean A cos / d^2 is right however near they are; only single
+// ones are kept from outshining whole maps.
 float texel_measure(ivec2 texel, PixelLight p) {
     return min(max(-dot(p.normal, p.from_light), 0.0) * p.area / p.squared_distance, 32.0 * PI);
 }
@@ -124,11 +125,21 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
     return hit;
 }
 
-// What a texel counts for: the flux it reflects.
+// The part of its light that may matter: points are thinned where little of what they send reaches anything
+// (scene/points/point_set.h), and each then stands for so much more area.
+float reaching_part(PixelLight p) {
+#ifdef SPLATTED
+    return 1.0;
+#else
+    return ism.splat.y > 0.0 ? min(ism.splat.y / max(p.area, 1e-30), 1.0) : 1.0;
+#endif
+}
+
+// What a texel counts for: the flux it reflects, as far as that may matter.
 float texel_importance(ivec2 texel, int layer) {
     PixelLight p;
     bool hit = load_pixel_light(texel, layer, p);
-    return hit ? importance_density(p.color, p.metallic, p.arriving) * texel_measure(texel, p) : 0.0;
+    return hit ? importance_density(p.color, p.metallic, p.arriving) * texel_measure(texel, p) * reaching_part(p) : 0.0;
 }
 
 #endif

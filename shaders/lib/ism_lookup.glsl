@@ -28,12 +28,13 @@ float vpl_visibility(GpuVpl vpl, vec3 w, float distance, float cos_out, float co
 
 // The same of a light at infinity, for a receiver at a place in render space.
 float distant_visibility(GpuVpl vpl, vec3 position, float size) {
-    vec3 p = vpl_from_render(vpl, position);
+    vec3 p = vpl_from_render(vpl, position - vpl.position.xyz) / distant_reach(vpl);
     uint origin = floatBitsToUint(vpl.bitangent.w);
-    vec2 at = clamp((p.xy / DISTANT_REACH * 0.5 + 0.5) * size, vec2(0.0), vec2(size - 0.01));
+    vec2 at = clamp((p.xy * 0.5 + 0.5) * size, vec2(0.0), vec2(size - 0.01));
     ivec2 texel = ivec2(at);
     uint bits = imageLoad(ism_image, texel + ivec2(origin & 0xffffu, origin >> 16)).r;
-    return distant_lit(bits, p.z, at - vec2(texel) - 0.5, size) ? 1.0 : 0.0;
+    bool beside = max(abs(p.x), abs(p.y)) > 1.0;
+    return beside || distant_lit(bits, p.z, at - vec2(texel) - 0.5, size) ? 1.0 : 0.0;
 }
 
 #endif

@@ -28,11 +28,15 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     s.normal = vpl_from_render(vpl, p.normal);
     s.flat_surface = p.flat_surface;
 #ifdef DISTANT
+    // In units of the map's reach.
+    float scale = 1.0 / distant_reach(vpl);
+    s.center *= scale;
+    s.radius2 *= scale * scale;
     s.distance = s.center.z;
-    s.place = (s.center.xy / DISTANT_REACH * 0.5 + 0.5) * map_size;
-    s.reach = sqrt(s.radius2) / DISTANT_REACH * (0.5 * map_size);
+    s.place = (s.center.xy * 0.5 + 0.5) * map_size;
+    s.reach = sqrt(s.radius2) * (0.5 * map_size);
     s.half_side = s.reach * sqrt(0.25 * PI * abs(s.normal.z));
-    return s.radius2 > 0.0;
+    return s.radius2 > 0.0 && s.center.z < 1.0;
 #else
     float distance2 = dot(s.center, s.center);
     s.distance = sqrt(distance2);

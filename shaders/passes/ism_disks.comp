@@ -30,7 +30,7 @@ bool disk_texel(Splat s, float plane, float set_back, vec2 at, out uint bits) {
 #ifdef DISTANT
     float steep = 1.0 / (abs(s.normal.z) > 1e-4 ? s.normal.z : 1e-4);
     vec2 slope = -s.normal.xy * steep;
-    vec3 hit = vec3(at * DISTANT_REACH, 0.0);
+    vec3 hit = vec3(at, 0.0);
     hit.z = plane * steep + dot(slope, hit.xy);
     vec3 off = hit - s.center;
     bits = pack_distant(hit.z + set_back / max(abs(s.normal.z), 0.1), slope, float(MAP_SIZE));
