@@ -2,7 +2,6 @@
 #include "evaluate/blender_export.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -20,18 +19,12 @@
 #include "core/log.h"
 #include "core/process.h"
 #include "evaluate/cache.h"
+#include "evaluate/scene_files.h"
 #include "evaluate/sha256.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
 namespace {
-
-bool is_blend(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".blend";
-}
 
 // A disk with less is taken for full where an export has failed: what was written of it still lies there.
 constexpr size_t k_room_bytes = size_t{64} << 10U;

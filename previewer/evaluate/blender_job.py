@@ -30,7 +30,7 @@ def tell(event, **values):
 
 def open_scene(job):
     """The scene to render, and the number to add to Bounce's frame numbers in it."""
-    if job["scene"].endswith((".glb", ".gltf")):
+    if not job["scene"].lower().endswith(".blend"):
         sys.path.insert(0, str(Path(__file__).resolve().parent))
         import cycles_import_gltf
 

@@ -16,6 +16,7 @@
 #include "evaluate/embedded.h"
 #include "evaluate/picture_room.h"
 #include "evaluate/scene_defaults.h"
+#include "evaluate/scene_files.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -33,12 +34,28 @@ std::vector<int> frames_of(const json& description) {
     return frames;
 }
 
+// Throws output_error; that of a full disk where there is no room for the pictures either.
+void write_job(const BlenderScript& script, const json& description, const ScratchFolder& scratch) {
+    try {
+        write_text_file(scratch / "blender_job.py", embedded::blender_job_py());
+        write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
+        write_text_file(scratch / script.name, script.text);
+        write_text_file(scratch / "job.json", description.dump());
+    } catch (const Error&) {
+        if (const auto full =
+                no_room_for_picture(scratch.path(), description.at("width"), description.at("height"))) {
+            throw *full;
+        }
+        throw;
+    }
+}
+
 }  // namespace
 
 BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& scratch,
                               const std::function<void(const std::string&, const json&)>& on_event,
                               const std::function<void(std::string_view)>& on_line) {
-    const bool blend = script.scene.extension() == ".blend";
+    const bool blend = is_blend(script.scene);
     json description = script.description;
     description["scene"] = fs::absolute(script.scene).string();
     if (!blend) {
@@ -47,10 +64,7 @@ BlenderEnd run_blender_script(const BlenderScript& script, const ScratchFolder& 
         description["defaults"] = scene_defaults(script.scene, frames_of(description),
                                                  description.at("width"), description.at("height"));
     }
-    write_text_file(scratch / "blender_job.py", embedded::blender_job_py());
-    write_text_file(scratch / "cycles_import_gltf.py", embedded::cycles_import_gltf_py());
-    write_text_file(scratch / script.name, script.text);
-    write_text_file(scratch / "job.json", description.dump());
+    write_job(script, description, scratch);
 
     std::vector<std::string> command = script.display;
     command.insert(command.end(), {script.blender.string(), "-b", "--factory-startup"});

@@ -28,12 +28,19 @@ CurvePoint make_point(std::string label, std::vector<FrameError> frames) {
         {&CurvePoint::ssim, &FrameError::ssim},
         {&CurvePoint::psnr_db, &FrameError::psnr_db},
         {&CurvePoint::bias, &FrameError::bias},
+        {&CurvePoint::nrmse, &FrameError::nrmse},
+        {&CurvePoint::smape, &FrameError::smape},
         {&CurvePoint::flip_hdr, &FrameError::flip_hdr},
         {&CurvePoint::seconds_least, &FrameError::seconds_least},
         {&CurvePoint::seconds_most, &FrameError::seconds_most},
     };
     for (const auto& [mean, figure] : means) {
         point.*mean = mean_of_frames(frames, figure);
+    }
+    for (const FrameError& frame : frames) {
+        for (size_t channel = 0; channel < point.bias_rgb.size(); ++channel) {
+            point.bias_rgb.at(channel) += frame.bias_rgb.at(channel) / static_cast<double>(frames.size());
+        }
     }
     point.frames = std::move(frames);
     return point;

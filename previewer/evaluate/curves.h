@@ -38,6 +38,15 @@ struct FrameError {
     double seconds_most = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Against the scene as Cycles renders it by the scene's own light paths: means over the frames.
+struct FinalErrors {
+    double relmse = 0.0;
+    double flip_ldr = 0.0;
+    double ssim = 0.0;
+    double psnr_db = 0.0;
+    double bias = 0.0;
+};
+
 // One way of rendering: means over its frames.
 struct CurvePoint {
     std::string label;
@@ -50,8 +59,12 @@ struct CurvePoint {
     double ssim = 0.0;
     double psnr_db = 0.0;  // mean of the frames' decibels
     double bias = 0.0;
+    double nrmse = 0.0;
+    double smape = 0.0;
+    std::array<double, 3> bias_rgb{};
     double flip_hdr = std::numeric_limits<double>::quiet_NaN();  // NaN where a frame has none
     std::optional<SequenceMetrics> sequence;  // where the frames are one; its errors are those of frames
+    std::optional<FinalErrors> final_errors;  // where they were asked for
     bool pareto = false;
     size_t rss_peak_bytes = 0;  // of the process; 0 where not known
     size_t gl_peak_bytes = 0;   // of buffers and textures in OpenGL; 0 where not known

@@ -123,6 +123,13 @@ CyclesReport run_cycles_cached(
     return report;
 }
 
+bool cycles_cache_lacks_any(const CyclesJob& job, const RenderCache& cache, const CyclesKey& key,
+                            bool fresh) {
+    return std::any_of(job.renders.begin(), job.renders.end(), [&](const CyclesRender& render) {
+        return fresh || !cache.load(key(render)).has_value();
+    });
+}
+
 void tell_cycles(Progress& progress, const CyclesRender& render, const std::string& more) {
     const std::string note =
         fmt::format("frame {}, {} spp{}: {:.2f} s", render.frame, render.spp, more, render.seconds);

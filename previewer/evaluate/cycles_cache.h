@@ -24,6 +24,10 @@ using CyclesKey = std::function<std::string(const CyclesRender&)>;
     const CyclesKey& key, bool fresh,
     const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});
 
+// Whether run_cycles_cached would have to render: a picture of the job is not in the cache, or fresh is set.
+[[nodiscard]] bool cycles_cache_lacks_any(const CyclesJob& job, const RenderCache& cache,
+                                          const CyclesKey& key, bool fresh);
+
 // A step of the progress: "frame 1, 64 spp: 7.60 s", what was rendered by an earlier run as such. more:
 // stands behind the samples.
 void tell_cycles(Progress& progress, const CyclesRender& render, const std::string& more);

@@ -110,8 +110,38 @@ def extension(item):
     return item.get("extensions", {}).get(NAME, {})
 
 
+def position_in(items, wanted):
+    return next((i for i, item in enumerate(items or []) if item is wanted), None)
+
+
+class MadeObjects:
+    """What the importer made of each node and material, told by its hooks: names need not be unique, nor be the file's."""
+
+    def __init__(self):
+        self.nodes = {}
+        # A node with a mesh as well has its camera or light below it.
+        self.cameras = {}
+        self.lights = {}
+        self.materials = {}  # several: one for each vertex colour
+
+    def glTF2ImportUserExtension(self):  # noqa: N802, the importer asks for this name
+        return self
+
+    def gather_import_node_after_hook(self, vnode, gltf_node, made, gltf):
+        index = position_in(gltf.data.nodes, gltf_node)
+        if index is not None:
+            self.nodes[index] = made
+        if vnode.camera_node_idx is not None:
+            self.cameras[vnode.camera_node_idx] = made
+        if vnode.light_node_idx is not None:
+            self.lights[vnode.light_node_idx] = made
+
+    def gather_import_material_after_hook(self, gltf_material, _vertex_color, made, gltf):
+        self.materials.setdefault(position_in(gltf.data.materials, gltf_material), []).append(made)
+
+
 class Imported:
-    def __init__(self, document, buffers, scene, defaults, note):
+    def __init__(self, document, buffers, scene, made, defaults, note):
         self.document = document
         self.scene = scene
         self.world = defaults.get("world")
@@ -119,33 +149,20 @@ class Imported:
         self.note = note
         self.channels = pointer_channels(document, buffers, note)
         self.frames = extension(document).get("frames", {"start": 1, "fps": 24})
-        self.objects = {}
-        for index, node in enumerate(document.get("nodes", [])):
-            found = bpy.data.objects.get(node.get("name", ""))
-            if found is not None:
-                self.objects[index] = found
+        self.made = made
         self.lights = {}
         self.make_lights()
 
     def camera_of(self, index):
-        """The camera that the importer made of a node: of its name, or below it where the node has a mesh as well; of
-        nodes without a name, which all get one name and a number, by their order."""
-        found = self.objects.get(index)
-        cameras = [item for item in ([found, *found.children] if found else []) if item.type == "CAMERA"]
-        if not cameras:
-            nodes = [i for i, node in enumerate(self.document.get("nodes", [])) if "camera" in node]
-            made = sorted((o for o in self.scene.objects if o.type == "CAMERA"), key=lambda o: o.name)
-            named = index in nodes and self.document["nodes"][index].get("name")
-            if index not in nodes or len(made) != len(nodes) or (named and len(nodes) > 1):
-                raise ValueError(f"the importer made no camera that is node {index}'s: is its name that of another node?")
-            cameras = [made[nodes.index(index)]]
-        return cameras[0]
+        if index not in self.made.cameras:
+            raise ValueError(f"the importer made no camera that is node {index}'s")
+        return self.made.cameras[index]
 
     def make_lights(self):
         for index, node in enumerate(self.document.get("nodes", [])):
             if "light" not in extension(node):
                 continue
-            found = self.objects.get(index)
+            found = self.made.lights.get(index, self.made.nodes.get(index))
             if found is None:
                 raise ValueError(f"the light node {node.get('name', index)} was not imported")
             light = extension(self.document)["lights"][extension(node)["light"]]
@@ -155,7 +172,8 @@ class Imported:
                 found.data.type = kind
                 holder = found
             else:  # an area light is an empty node to the importer
-                holder = bpy.data.objects.new(node["name"] + " light", bpy.data.lights.new(light["name"], kind))
+                name = light.get("name", "Light")
+                holder = bpy.data.objects.new(name, bpy.data.lights.new(name, kind))
                 self.scene.collection.objects.link(holder)
                 holder.parent = found
                 holder.rotation_euler.x = math.pi / 2  # the importer's axes: glTF's -Z is Blender's +Y
@@ -171,16 +189,16 @@ class Imported:
             node = document["nodes"][index]
             set_light(holder.data, extension(document)["lights"][extension(node)["light"]])
         for index, node in enumerate(document.get("nodes", [])):
-            found = self.objects.get(index)
+            found = self.made.nodes.get(index)
             if found is None:
                 continue
             visibility = node.get("extensions", {}).get("KHR_node_visibility")
             if visibility is not None:
                 hide(found, not visibility.get("visible", True))
-            if "camera" in node and found.type == "CAMERA":
-                set_camera(found.data, extension(document["cameras"][node["camera"]]))
+            if index in self.made.cameras:
+                set_camera(self.made.cameras[index].data, extension(document["cameras"][node["camera"]]))
         set_world(self.scene, extension(document).get("world") or self.world)
-        set_materials(document)
+        set_materials(document, self.made.materials)
         if self.framing:
             place_camera(self.scene.camera, self.framing[frame])
         # The importer puts time 0 at frame 0.
@@ -247,31 +265,34 @@ def set_world(scene, world):
     background.inputs["Strength"].default_value = (world or {}).get("strength", 0)
 
 
-def set_materials(document):
-    for item in document.get("materials", []):
-        material = bpy.data.materials.get(item.get("name", ""))
-        if material is None or not material.use_nodes:
-            continue
-        shader = next((n for n in material.node_tree.nodes if n.type in ("BSDF_PRINCIPLED", "BSDF_DIFFUSE")), None)
-        if shader is None:
-            continue
-        said = extension(item)
-        if shader.type == "BSDF_PRINCIPLED" and said.get("diffuse") == "lambert" and said.get("specular") == 0:
-            shader = replace_by_diffuse(material, shader)
-        elif shader.type == "BSDF_PRINCIPLED" and "specular" in said and "Specular" in shader.inputs:
-            shader.inputs["Specular"].default_value = said["specular"]
-        factors = item.get("pbrMetallicRoughness", {})
-        color = shader.inputs["Color" if shader.type == "BSDF_DIFFUSE" else "Base Color"]
-        if "baseColorFactor" in factors and not color.is_linked:
-            color.default_value = factors["baseColorFactor"]
-        if shader.type == "BSDF_PRINCIPLED":
-            for name, key in (("Metallic", "metallicFactor"), ("Roughness", "roughnessFactor")):
-                if key in factors and not shader.inputs[name].is_linked:
-                    shader.inputs[name].default_value = factors[key]
-            emission = shader.inputs["Emission"]
-            if "emissiveFactor" in item and not emission.is_linked:
-                emission.default_value = (*item["emissiveFactor"], 1)
-                shader.inputs["Emission Strength"].default_value = emissive_strength(item)
+def set_materials(document, made):
+    for index, item in enumerate(document.get("materials", [])):
+        for material in made.get(index, []):
+            if material.use_nodes:
+                set_material(item, material)
+
+
+def set_material(item, material):
+    shader = next((n for n in material.node_tree.nodes if n.type in ("BSDF_PRINCIPLED", "BSDF_DIFFUSE")), None)
+    if shader is None:
+        return
+    said = extension(item)
+    if shader.type == "BSDF_PRINCIPLED" and said.get("diffuse") == "lambert" and said.get("specular") == 0:
+        shader = replace_by_diffuse(material, shader)
+    elif shader.type == "BSDF_PRINCIPLED" and "specular" in said and "Specular" in shader.inputs:
+        shader.inputs["Specular"].default_value = said["specular"]
+    factors = item.get("pbrMetallicRoughness", {})
+    color = shader.inputs["Color" if shader.type == "BSDF_DIFFUSE" else "Base Color"]
+    if "baseColorFactor" in factors and not color.is_linked:
+        color.default_value = factors["baseColorFactor"]
+    if shader.type == "BSDF_PRINCIPLED":
+        for name, key in (("Metallic", "metallicFactor"), ("Roughness", "roughnessFactor")):
+            if key in factors and not shader.inputs[name].is_linked:
+                shader.inputs[name].default_value = factors[key]
+        emission = shader.inputs["Emission"]
+        if "emissiveFactor" in item and not emission.is_linked:
+            emission.default_value = (*item["emissiveFactor"], 1)
+            shader.inputs["Emission Strength"].default_value = emissive_strength(item)
 
 
 def emissive_strength(item):
@@ -335,6 +356,20 @@ def set_scene(scene, root, imported):
     scene.view_settings.gamma = view.get("gamma", 1)
 
 
+def import_nodes(path):
+    """Runs Blender's importer. It asks the modules of all enabled add-ons for extensions, its own among them."""
+    made = MadeObjects()
+    importer = sys.modules["io_scene_gltf2"]
+    importer.glTF2ImportUserExtension = made.glTF2ImportUserExtension
+    try:
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    finally:
+        del importer.glTF2ImportUserExtension
+    if not made.nodes:
+        raise ValueError("this Blender's glTF importer does not tell what it makes of each node: is it older than 3.4?")
+    return made
+
+
 def load(path, addon, defaults, note):
     """Imports the file into an empty scene; defaults: what the file lacks, or None. Returns (scene, Imported)."""
     defaults = defaults or {}
@@ -354,8 +389,8 @@ def load(path, addon, defaults, note):
         if name not in numpy.__dict__:
             setattr(numpy, name, kind)
     scene.render.fps = max(1, round(root.get("frames", {}).get("fps", 24)))
-    bpy.ops.import_scene.gltf(filepath=str(path))
-    imported = Imported(document, buffers, scene, defaults, note)
+    made = import_nodes(path)
+    imported = Imported(document, buffers, scene, made, defaults, note)
     set_scene(scene, root, imported)
     choose_camera(scene, root, defaults, imported)
     return scene, imported

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Renders frames of a scene with Cycles on the CPU, with light paths that match Bounce's, and times them.
+"""Renders frames of a scene with Cycles on the CPU, with light paths that match Bounce's or its own, and times them.
 
     blender -b --factory-startup [SCENE.blend] --python-exit-code 1 -P cycles_render.py -- JOB.json
 
 JOB.json: {scene, addon, width, height, bounces, frames: [{frame, renders: [{spp, seed, repeat, output}]}]}.
+bounces: off surfaces, after direct light; null: the scene's own light paths.
 Each output is a scene-linear EXR of 32-bit floats. Lines "BOUNCE {json}" on stdout: note, error and begin (after which
 Cycles prints "Sample 0/N" when it is set up) as blender_job.py tells them, and
 
@@ -76,7 +77,8 @@ def main():
     scene.render.engine = "CYCLES"
     match_picture(scene, job["width"], job["height"])
     match_sampling(scene)
-    match_light_paths(scene.cycles, job["bounces"])
+    if job["bounces"] is not None:
+        match_light_paths(scene.cycles, job["bounces"])
     view = scene.view_settings
     tell("ready", version=bpy.app.version_string, threads=scene.render.threads, files=referred_files(),
          view={"display_device": scene.display_settings.display_device, "view_transform": view.view_transform,

@@ -12,6 +12,7 @@
 #include "core/process.h"
 #include "evaluate/blender_script.h"
 #include "evaluate/embedded.h"
+#include "evaluate/scene_files.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
 
@@ -33,7 +34,8 @@ json job_to_json(const CyclesJob& job) {
                                             {"repeat", render.repeat},
                                             {"output", render.output.string()}});
     }
-    return {{"width", job.width}, {"height", job.height}, {"bounces", job.bounces}, {"frames", frames}};
+    const json bounces = job.bounces == k_own_light_paths ? json(nullptr) : json(job.bounces);
+    return {{"width", job.width}, {"height", job.height}, {"bounces", bounces}, {"frames", frames}};
 }
 
 // Reads the lines that Blender prints while it works through a job.
@@ -124,6 +126,10 @@ CyclesReport run_cycles(const CyclesJob& job, const fs::path& blender,
     return listener.take();
 }
 
+std::string bounces_text(int bounces) {
+    return bounces == k_own_light_paths ? "own light paths" : fmt::format("{} bounces", bounces);
+}
+
 std::string last_line(const std::string& output) {
     const size_t end = output.find_last_not_of("\r\n ");
     if (end == std::string::npos) {
@@ -151,8 +157,7 @@ std::string blender_version(const fs::path& blender) {
 
 std::string shared_scripts_hash(const fs::path& scene) {
     // A .blend is opened by Blender itself.
-    const std::string_view import =
-        scene.extension() == ".blend" ? std::string_view{} : embedded::cycles_import_gltf_py();
+    const std::string_view import = is_blend(scene) ? std::string_view{} : embedded::cycles_import_gltf_py();
     return sha256_of_text(std::string(embedded::blender_job_py()) + std::string(import));
 }
 

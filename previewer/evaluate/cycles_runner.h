@@ -25,6 +25,9 @@ struct CyclesRender {
     std::vector<double> all_seconds{};  // of each of the renders
 };
 
+// In the place of a number of bounces: the scene's own light paths, clamping included.
+inline constexpr int k_own_light_paths = -1;
+
 struct CyclesJob {
     std::filesystem::path scene;  // .blend, .glb or .gltf
     int width = 640;
@@ -45,13 +48,17 @@ struct CyclesReport {
 };
 
 // Renders the job with Cycles on the CPU in one Blender process. Light paths: direct light and exactly
-// `bounces` bounces, diffuse or glossy, no clamping, no denoiser, no adaptive sampling; pixel
-// filter Blackman-Harris, width 1.5 (evaluate/cycles_render.py says how each is set). on_render is called
-// after each picture, with what is known so far. Throws input_error where Blender cannot render the scene,
-// output_error where there is no room for temporary files, and what on_render throws.
+// `bounces` bounces, diffuse or glossy, no clamping; or the scene's own (k_own_light_paths). No denoiser, no
+// adaptive sampling; pixel filter Blackman-Harris, width 1.5 (evaluate/cycles_render.py says how each is
+// set). on_render is called after each picture, with what is known so far. Throws input_error where Blender
+// cannot render the scene, output_error where there is no room for temporary files, and what on_render
+// throws.
 [[nodiscard]] CyclesReport run_cycles(
     const CyclesJob& job, const std::filesystem::path& blender,
     const std::function<void(const CyclesRender&, const CyclesReport&)>& on_render = {});
+
+// "2 bounces", or "own light paths", for keys.
+[[nodiscard]] std::string bounces_text(int bounces);
 
 // First line of `blender --version` and its build hash; names the engine in cache keys. Throws Error
 // (failed) where the program does not answer like Blender.

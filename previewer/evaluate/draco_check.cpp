@@ -67,7 +67,7 @@ bool blender_has_library(const fs::path& blender) {
 }  // namespace
 
 void require_draco_library(const fs::path& scene, const fs::path& blender) {
-    if (scene.extension() == ".blend" || !gltf_uses_extension(scene, k_extension)) {
+    if (is_blend(scene) || !gltf_uses_extension(scene, k_extension)) {
         return;
     }
     const char* variable = std::getenv(k_variable);

@@ -13,6 +13,7 @@ namespace bounce::embedded {
 [[nodiscard]] std::string_view eevee_render_py();
 [[nodiscard]] std::string_view f3d_export_py();
 [[nodiscard]] std::string_view report_html();
+[[nodiscard]] std::string_view report_final_js();
 [[nodiscard]] std::string_view report_js();
 [[nodiscard]] std::string_view report_budgets_js();
 [[nodiscard]] std::string_view report_chart_js();

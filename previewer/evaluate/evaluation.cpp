@@ -45,7 +45,7 @@ constexpr int k_most_pass_repeats = 3;
 // Of the scene's content: the file with those that a glTF refers to. Those of a .blend Blender tells, and the
 // caches keep their hashes.
 std::string hash_of_content(const fs::path& scene) {
-    const bool alone = scene.extension() == ".blend" || gltf_external_files(scene).empty();
+    const bool alone = is_blend(scene) || gltf_external_files(scene).empty();
     return alone ? sha256_of_file(scene) : sha256_of_gltf(scene);
 }
 
@@ -71,12 +71,15 @@ class Evaluator {
             blender_ = find_blender(options.source.blender);
             result_.blender = blender_version(blender_);
         }
-        references_.emplace(reference_source(), cache_folder() / "references", render_cache_,
-                            [this](const CyclesRender& render) { return cycles_key(render); });
-        if (references_->lacks_any()) {
-            // Before Bounce's own points take their minutes.
-            require_draco_library(options.scene, blender_);
+        references_.emplace(reference_source(), cache_folder() / "references", render_cache_, ladder_key());
+        if (options.final_render) {
+            ReferenceSet::Source source = reference_source();
+            source.given.clear();
+            source.bounces = k_own_light_paths;
+            final_renders_.emplace(source, cache_folder() / "references", render_cache_,
+                                   key_with(k_own_light_paths));
         }
+        refuse_what_blender_cannot();
     }
 
     Evaluation run() {
@@ -92,6 +95,7 @@ class Evaluator {
             render_ladder();
         }
         render_references();
+        render_final();
         motion_.emplace(options_.bounce, gltf_, options_.frames, options_.width, options_.height,
                         scratch_ / "motion");
         measure_cycles();
@@ -106,7 +110,7 @@ class Evaluator {
 
   private:
     [[nodiscard]] bool needs_cycles() const {
-        return options_.given_reference.empty() || !options_.cycles_spp.empty();
+        return options_.given_reference.empty() || !options_.cycles_spp.empty() || options_.final_render;
     }
 
     [[nodiscard]] ReferenceSet::Source reference_source() const {
@@ -122,6 +126,27 @@ class Evaluator {
             result_.cycles = *report;
         }
         result_.references = references_->all();
+    }
+
+    void render_final() {
+        if (!final_renders_) {
+            return;
+        }
+        log::info("the scene by its own light paths:");
+        (void)final_renders_->render(
+            [this](int frame, const Image& target) { return smallest_error(frame, target); });
+        FinalRender final;
+        final.references = final_renders_->all();
+        std::vector<RenderedFrame> matched;
+        for (const Reference& reference : result_.references) {
+            matched.push_back({reference.frame, reference.seconds, {}, &reference.image, {}});
+        }
+        final.matched = errors_against(matched, final_image());
+        result_.final_render = std::move(final);
+    }
+
+    [[nodiscard]] ReferenceImage final_image() const {
+        return [this](int frame) -> const Image& { return final_renders_->at(frame).image; };
     }
 
     // The least relMSE of all that was rendered of a frame, whoever rendered it.
@@ -149,7 +174,40 @@ class Evaluator {
         return least;
     }
 
-    void render_ladder() {
+    // Before Bounce's own points take their minutes. Where all of Cycles' pictures are kept, nothing is
+    // refused.
+    void refuse_what_blender_cannot() const {
+        try {
+            require_draco_library(options_.scene, blender_);
+            require_camera();
+        } catch (const Error&) {
+            if (references_->lacks_any() || lacks_cycles_points() ||
+                (final_renders_ && final_renders_->lacks_any())) {
+                throw;
+            }
+        }
+    }
+
+    // Bounce frames a scene without a camera by itself; of a .blend Blender renders what it has.
+    void require_camera() const {
+        if (is_blend(options_.scene) && !gltf_names_camera(gltf_)) {
+            throw input_error(
+                fmt::format("{} has no active camera: Cycles cannot render it", options_.scene.string()));
+        }
+    }
+
+    [[nodiscard]] CyclesKey key_with(int bounces) const {
+        return [this, bounces](const CyclesRender& render) { return cycles_key(render, bounces); };
+    }
+
+    [[nodiscard]] CyclesKey ladder_key() const { return key_with(options_.bounces); }
+
+    [[nodiscard]] bool lacks_cycles_points() const {
+        return cycles_cache_lacks_any(ladder_job(), render_cache_, ladder_key(), options_.fresh);
+    }
+
+    // Cycles' own points; without one where there are none.
+    [[nodiscard]] CyclesJob ladder_job() const {
         CyclesJob job;
         job.scene = options_.scene;
         job.width = options_.width;
@@ -166,18 +224,22 @@ class Evaluator {
                 job.renders.push_back(render);
             }
         }
+        return job;
+    }
+
+    void render_ladder() {
+        const CyclesJob job = ladder_job();
         Progress progress("Cycles", static_cast<int>(job.renders.size()));
         result_.cycles = run_cycles_cached(
-            job, blender_, render_cache_, [&](const CyclesRender& render) { return cycles_key(render); },
-            options_.fresh,
+            job, blender_, render_cache_, ladder_key(), options_.fresh,
             [&](const CyclesRender& render, const CyclesReport&) { tell_cycles(progress, render, ""); });
     }
 
-    [[nodiscard]] std::string cycles_key(const CyclesRender& render) const {
+    [[nodiscard]] std::string cycles_key(const CyclesRender& render, int bounces) const {
         return peer_key(
             peer_job(), render.frame,
-            fmt::format("Cycles, {} spp, seed {}, {} bounces, median of {}\n{}", render.spp, render.seed,
-                        options_.bounces, render.repeat, cycles_scripts_hash(options_.scene)));
+            fmt::format("Cycles, {} spp, seed {}, {}, median of {}\n{}", render.spp, render.seed,
+                        bounces_text(bounces), render.repeat, cycles_scripts_hash(options_.scene)));
     }
 
     [[nodiscard]] const CyclesRender& find_render(int frame, int spp) const {
@@ -192,6 +254,9 @@ class Evaluator {
             return references_->at(frame).image;
         };
         curve.points.push_back(measure_point(label, frames, reference, *motion_));
+        if (final_renders_) {
+            curve.points.back().final_errors = errors_against(frames, final_image());
+        }
         drawn_.push_back({result_.curves.size() - 1, curve.points.size() - 1, std::move(frames)});
         return curve.points.back();
     }
@@ -342,6 +407,7 @@ class Evaluator {
     std::string render_hash_;  // of what Blender's renders depend on
     RenderCache render_cache_;
     std::optional<ReferenceSet> references_;
+    std::optional<ReferenceSet> final_renders_;  // by the scene's own light paths
     std::vector<PreviewResult> previews_;
     std::optional<MotionLayers> motion_;
     std::vector<RenderedPoint> drawn_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,8 @@ struct EvaluateOptions {
     bool resume = false;                 // runs that are kept there are not measured again
     std::vector<std::string> peers;      // of known_peers()
     double peer_limit_seconds = 60.0;
-    bool fresh = false;  // measure the other engines anew; references are kept all the same
+    bool final_render = false;  // compare with the scene by its own light paths as well
+    bool fresh = false;         // measure the other engines anew; references are kept all the same
 };
 
 // What comes before the frames that count, of one engine. 0: not known, or there is no such step.
@@ -65,6 +67,13 @@ struct Picture {
     Image image;  // scene-linear
 };
 
+// The scene as Cycles renders it by its own light paths: what the artist will get.
+struct FinalRender {
+    std::vector<Reference> references;  // one a frame
+    // Of the references that match Bounce's light paths: how far off the best of previews would be.
+    FinalErrors matched;
+};
+
 struct Evaluation {
     std::string scene;            // file name
     std::string scene_hash;       // of its content
@@ -83,7 +92,8 @@ struct Evaluation {
     std::string blender;
     CyclesReport cycles;                // version, threads, times beside the frames
     std::vector<Reference> references;  // one a frame
-    std::vector<Curve> curves;          // Cycles first
+    std::optional<FinalRender> final_render;
+    std::vector<Curve> curves;  // Cycles first
     std::vector<Speedup> speedups;
     FrontSummary front;
     std::vector<Picture> pictures;  // at least those that the report shows

@@ -75,4 +75,18 @@ CurvePoint measure_point(std::string label, const std::vector<RenderedFrame>& fr
     return point;
 }
 
+FinalErrors errors_against(const std::vector<RenderedFrame>& frames, const ReferenceImage& target) {
+    FinalErrors mean;
+    const double share = 1.0 / static_cast<double>(frames.size());
+    for (const RenderedFrame& frame : frames) {
+        const Metrics metrics = compare(frame.image(), target(frame.frame), HdrFlip::leave_out);
+        mean.relmse += share * metrics.relmse;
+        mean.flip_ldr += share * metrics.flip_ldr;
+        mean.ssim += share * metrics.ssim;
+        mean.psnr_db += share * metrics.psnr_db;
+        mean.bias += share * metrics.bias;
+    }
+    return mean;
+}
+
 }  // namespace bounce

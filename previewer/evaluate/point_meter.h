@@ -40,4 +40,8 @@ using ReferenceImage = std::function<const Image&(int frame)>;
 [[nodiscard]] CurvePoint measure_point(std::string label, const std::vector<RenderedFrame>& frames,
                                        const ReferenceImage& reference, const MotionLayers& motion);
 
+// The same pictures against others than the point's references.
+[[nodiscard]] FinalErrors errors_against(const std::vector<RenderedFrame>& frames,
+                                         const ReferenceImage& target);
+
 }  // namespace bounce

@@ -14,6 +14,7 @@
 #include "core/json_fault.h"
 #include "core/log.h"
 #include "evaluate/cache.h"
+#include "evaluate/cycles_runner.h"
 #include "evaluate/record_file.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string text_of(const ReferenceKey& key) {
-    return fmt::format("{}\nframe {}\n{}x{}\n{} spp\n{} bounces\n{}\n{}\n", key.scene_hash, key.frame,
-                       key.width, key.height, key.spp, key.bounces, key.blender, key.scripts_hash);
+    return fmt::format("{}\nframe {}\n{}x{}\n{} spp\n{}\n{}\n{}\n", key.scene_hash, key.frame, key.width,
+                       key.height, key.spp, bounces_text(key.bounces), key.blender, key.scripts_hash);
 }
 
 }  // namespace

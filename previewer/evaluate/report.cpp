@@ -87,6 +87,14 @@ ordered_json reference_json(const Evaluation& evaluation) {
             {"frames", frames}};
 }
 
+ordered_json final_errors_json(const FinalErrors& errors) {
+    return {{"relmse", number(errors.relmse)},
+            {"flip_ldr", number(errors.flip_ldr)},
+            {"ssim", number(errors.ssim)},
+            {"psnr_db", number(errors.psnr_db)},
+            {"bias", number(errors.bias)}};
+}
+
 ordered_json point_json(const CurvePoint& point) {
     ordered_json frames = ordered_json::array();
     for (const FrameError& frame : point.frames) {
@@ -109,6 +117,7 @@ ordered_json point_json(const CurvePoint& point) {
              {"max_abs_pixel", {frame.max_x, frame.max_y}},
              {"not_finite", frame.not_finite}});
     }
+    const auto final = point.final_errors ? final_errors_json(*point.final_errors) : ordered_json(nullptr);
     return {{"label", point.label},
             {"seconds", number(point.seconds)},
             {"relmse", number(point.relmse)},
@@ -118,6 +127,9 @@ ordered_json point_json(const CurvePoint& point) {
             {"ssim", number(point.ssim)},
             {"psnr_db", number(point.psnr_db)},
             {"bias", number(point.bias)},
+            {"nrmse", number(point.nrmse)},
+            {"smape", number(point.smape)},
+            {"bias_rgb", {number(point.bias_rgb[0]), number(point.bias_rgb[1]), number(point.bias_rgb[2])}},
             {"pareto", point.pareto},
             {"setup_seconds", number(point.setup_seconds)},
             {"startup_seconds", number(point.startup_seconds)},
@@ -129,6 +141,24 @@ ordered_json point_json(const CurvePoint& point) {
             {"own_front", point.own_front},
             {"options", point.options},
             {"sequence", point.sequence ? sequence_figures_json(*point.sequence) : ordered_json(nullptr)},
+            {"final_render", final},
+            {"frames", frames}};
+}
+
+ordered_json final_render_json(const Evaluation& evaluation) {
+    if (!evaluation.final_render) {
+        return nullptr;
+    }
+    ordered_json frames = ordered_json::array();
+    for (const Reference& reference : evaluation.final_render->references) {
+        frames.push_back({{"frame", reference.frame},
+                          {"seconds", number(reference.seconds)},
+                          {"noise_floor_relmse", number(reference.noise_floor)},
+                          {"spp", reference.spp},
+                          {"cached", reference.cached}});
+    }
+    return {{"light_paths", "the scene's own"},
+            {"matched_reference", final_errors_json(evaluation.final_render->matched)},
             {"frames", frames}};
 }
 
@@ -193,6 +223,7 @@ ordered_json results_json(const Evaluation& evaluation) {
     return {{"scene", evaluation.scene},
             {"scene_sha256", evaluation.scene_sha256},
             {"reference", reference_json(evaluation)},
+            {"final_render", final_render_json(evaluation)},
             {"curves", curves},
             {"speedup_at_equal_error", speedups},
             {"own_front", front_json(evaluation.front)},
@@ -245,6 +276,13 @@ std::string results_table(const Evaluation& evaluation) {
                                    evaluation.given_reference,
                                    mean_of(evaluation.references, &Reference::noise_floor));
     }
+    if (evaluation.final_render) {
+        const FinalErrors& matched = evaluation.final_render->matched;
+        table += fmt::format(
+            "Against the scene by its own light paths the reference itself is off by relMSE {:.3g}, FLIP "
+            "{:.4f}, {:+.2f}%.\n",
+            matched.relmse, matched.flip_ldr, 100.0 * matched.bias);
+    }
     table += fmt::format(
         "* on the Pareto front. Reference: Cycles {}, {}, {:.1f} s a frame, noise floor {:.2g}.\n",
         evaluation.cycles.version, spp_text(evaluation), mean_of(evaluation.references, &Reference::seconds),
@@ -288,6 +326,12 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
         write_image(
             folder / "frames" / fmt::format("reference.{:04}.exr", reference.frame), reference.image,
             reference_attributes(reference, evaluation.scene, evaluation.scene_hash, evaluation.bounces));
+    }
+    if (evaluation.final_render) {
+        for (const Reference& reference : evaluation.final_render->references) {
+            write_image(folder / "frames" / fmt::format("final.{:04}.exr", reference.frame), reference.image,
+                        attributes(reference.frame));
+        }
     }
     for (const Picture& picture : evaluation.pictures) {
         if (std::find(shown.begin(), shown.end(), std::pair{picture.curve, picture.label}) != shown.end()) {

@@ -171,7 +171,7 @@ const report = (() => {
     "OpenGL: the most bytes in buffers and textures at once, as Bounce counts its own."];
   if (all.some((point) => point.flip_hdr !== null)) {
     remarks.push("HDR: HDR-FLIP, the largest FLIP of each pixel over all exposures at which the reference shows something" +
-      `${all.some((point) => point.flip_hdr === null) ? "; of the points whose pictures are shown above" : ""}.`);
+      `${all.some((point) => point.flip_hdr === null && point.relmse !== null) ? "; of the points whose pictures are shown above" : ""}.`);
   }
   if (results.speedup_at_equal_error.some((item) => item.cycles_time === "extrapolated")) {
     remarks.push("* Beyond Cycles' last point, along its last segment, but not flatter than noise falls.");

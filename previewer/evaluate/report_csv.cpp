@@ -31,6 +31,22 @@ constexpr const char* k_sequence_columns =
     "tid_reference,tid_coverage,flicker_power,flicker_share";
 constexpr size_t k_sequence_figures = 10;
 
+constexpr const char* k_final_columns = ",final_relmse,final_flip_ldr,final_ssim,final_psnr_db,final_bias";
+constexpr size_t k_final_figures = 5;
+
+// Against the scene by its own light paths: in the mean's row alone as well.
+std::string final_csv(const CurvePoint& point) {
+    if (!point.final_errors) {
+        return std::string(k_final_figures, ',');
+    }
+    const FinalErrors& e = *point.final_errors;
+    std::string text;
+    for (const double value : {e.relmse, e.flip_ldr, e.ssim, e.psnr_db, e.bias}) {
+        text += "," + if_known(value);
+    }
+    return text;
+}
+
 std::string sequence_csv(const CurvePoint& point) {
     if (!point.sequence) {
         return std::string(k_sequence_figures, ',');
@@ -45,30 +61,43 @@ std::string sequence_csv(const CurvePoint& point) {
     return text;
 }
 
+// What a frame and the mean over all of them have alike.
+template <typename Errors>
+std::string errors_csv(const Errors& errors) {
+    std::string text;
+    for (const double value :
+         {errors.seconds, errors.relmse, errors.relmse_exposed, errors.flip_ldr, errors.flip_hdr, errors.ssim,
+          errors.psnr_db, errors.nrmse, errors.smape, errors.bias, errors.bias_rgb[0], errors.bias_rgb[1],
+          errors.bias_rgb[2], errors.seconds_least, errors.seconds_most}) {
+        text += "," + if_known(value);
+    }
+    return text;
+}
+
+constexpr const char* k_columns =
+    "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,flip_hdr,ssim,psnr_db,nrmse,smape,bias,bias_r,"
+    "bias_g,"
+    "bias_b,seconds_least,seconds_most,max_abs,max_x,max_y,not_finite,pareto,own_front,cycles_seconds,ratio,"
+    "cycles_time";
+
 }  // namespace
 
 std::string results_csv(const Evaluation& evaluation) {
-    std::string csv =
-        "curve,label,frame,seconds,relmse,relmse_exposed,flip_ldr,ssim,psnr_db,bias,pareto,own_front,"
-        "seconds_least,seconds_most,cycles_seconds,ratio,cycles_time,flip_hdr";
+    std::string csv = k_columns;
     csv += k_sequence_columns;
+    csv += k_final_columns;
     csv += '\n';
     for (const Curve& curve : evaluation.curves) {
         for (const CurvePoint& point : curve.points) {
-            csv += fmt::format(
-                "\"{}\",\"{}\",mean,{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{},{},{}{}\n",
-                curve.name, point.label, point.seconds, point.relmse, point.relmse_exposed, point.flip_ldr,
-                point.ssim, point.psnr_db, point.bias, point.pareto, point.own_front,
-                if_known(point.seconds_least), if_known(point.seconds_most),
-                equal_error_csv(evaluation, curve.name, point.label), if_known(point.flip_hdr),
-                sequence_csv(point));
+            csv += fmt::format("\"{}\",\"{}\",mean{},,,,,{},{},{}{}\n", curve.name, point.label,
+                               errors_csv(point), point.pareto, point.own_front,
+                               equal_error_csv(evaluation, curve.name, point.label),
+                               sequence_csv(point) + final_csv(point));
             for (const FrameError& frame : point.frames) {
-                csv += fmt::format(
-                    "\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},,,{},{},,,,{}{}\n",
-                    curve.name, point.label, frame.frame, frame.seconds, frame.relmse, frame.relmse_exposed,
-                    frame.flip_ldr, frame.ssim, frame.psnr_db, frame.bias, if_known(frame.seconds_least),
-                    if_known(frame.seconds_most), if_known(frame.flip_hdr),
-                    std::string(k_sequence_figures, ','));
+                csv += fmt::format("\"{}\",\"{}\",{}{},{},{},{},{},,,,,{}\n", curve.name, point.label,
+                                   frame.frame, errors_csv(frame), if_known(frame.max_abs), frame.max_x,
+                                   frame.max_y, frame.not_finite,
+                                   std::string(k_sequence_figures + k_final_figures, ','));
             }
         }
     }

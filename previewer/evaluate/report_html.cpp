@@ -49,6 +49,18 @@ std::string data_uri(const Image& display, const ScratchFolder& scratch) {
     return "data:image/png;base64," + base64(bytes);
 }
 
+// Null where there is none.
+nlohmann::ordered_json final_uri(const Evaluation& evaluation, int frame, const ScratchFolder& scratch) {
+    if (evaluation.final_render) {
+        for (const Reference& reference : evaluation.final_render->references) {
+            if (reference.frame == frame) {
+                return data_uri(to_display(reference.image, evaluation.cycles.view), scratch);
+            }
+        }
+    }
+    return nullptr;
+}
+
 nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
     const ScratchFolder scratch;
     const auto shown = shown_points(evaluation);
@@ -74,6 +86,7 @@ nlohmann::ordered_json pictures_json(const Evaluation& evaluation) {
         }
         frames.push_back({{"frame", reference.frame},
                           {"reference", data_uri(reference_display, scratch)},
+                          {"final_render", final_uri(evaluation, reference.frame, scratch)},
                           {"previews", previews}});
     }
     return frames;
@@ -94,6 +107,7 @@ std::string results_html(const Evaluation& evaluation) {
     put_into_page(page, "/*REPORT_FRAMES_JS*/", embedded::report_frames_js());
     put_into_page(page, "/*REPORT_SEQUENCE_JS*/", embedded::report_sequence_js());
     put_into_page(page, "/*REPORT_BUDGETS_JS*/", embedded::report_budgets_js());
+    put_into_page(page, "/*REPORT_FINAL_JS*/", embedded::report_final_js());
     put_into_page(page, "/*PICTURES*/", json_for_script(pictures_json(evaluation)));
     put_into_page(page, "/*RESULTS*/", json_for_script(results_json(evaluation)));
     return page;

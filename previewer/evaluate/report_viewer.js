@@ -12,7 +12,8 @@
 
   const k_reference = "Reference";
   const nameOf = (preview) => `${preview.curve}, ${preview.label}`;
-  const names = pictures[0].previews.map(nameOf).concat(k_reference);
+  const k_final = "Final render";
+  const names = pictures[0].previews.map(nameOf).concat(k_reference, results.final_render ? [k_final] : []);
   const state = { frame: 0, left: names[0], right: k_reference };
 
   // The picture of that name in the frame that is shown, with its figures.
@@ -23,6 +24,11 @@
       return { image: frame.reference, tag: "Reference",
         caption: results.reference.engine === "Cycles (CPU)"
           ? `Reference: Cycles, ${reference.spp} spp, ${time(reference.seconds)}` : "Reference" };
+    }
+    if (name === k_final) {
+      const render = results.final_render.frames[state.frame];
+      return { image: frame.final_render, tag: k_final,
+        caption: `${k_final}: Cycles by the scene's own light paths, ${render.spp} spp, ${time(render.seconds)}` };
     }
     const preview = frame.previews.find((item) => nameOf(item) === name);
     const point = results.curves.find((curve) => curve.name === preview.curve)
@@ -40,10 +46,11 @@
       byId(`${side}-tag`).textContent = picture.tag;
       byId(`${side}-caption`).textContent = picture.caption;
     }
-    // Maps of the picture that is not the reference.
-    const name = state.left === k_reference ? state.right : state.left;
-    byId("maps").hidden = name === k_reference;
-    if (name !== k_reference) {
+    // Maps of the picture that is neither the reference nor the final render: of the left one where both are such.
+    const hasMaps = (name) => name !== k_reference && name !== k_final;
+    const name = hasMaps(state.left) ? state.left : state.right;
+    byId("maps").hidden = !hasMaps(name);
+    if (hasMaps(name)) {
       const picture = pictureOf(name);
       place("difference", picture.difference, `Difference of ${name}`);
       place("flip", picture.flip, `FLIP of ${name}`);

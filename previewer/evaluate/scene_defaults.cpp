@@ -30,7 +30,7 @@ json framed(const scene::Scene& scene, int frame, double aspect) {
 
 json scene_defaults(const std::filesystem::path& gltf, const std::vector<int>& frames, int width,
                     int height) {
-    if (gltf.extension() == ".blend" || !is_gltf(gltf)) {
+    if (is_blend(gltf) || !is_gltf(gltf)) {
         return nullptr;
     }
     const scene::Scene scene = scene::load_gltf(gltf).scene;

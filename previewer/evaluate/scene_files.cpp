@@ -12,6 +12,8 @@
 #include "evaluate/sha256.h"
 
 namespace bounce {
+using nlohmann::literals::operator""_json_pointer;
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -93,6 +95,18 @@ std::string sha256_of_gltf(const fs::path& gltf) {
         hash.add(path.lexically_relative(gltf.parent_path()).string() + "\n" + content + "\n");
     }
     return hash.hex_digest();
+}
+
+bool is_blend(const fs::path& scene) {
+    std::string extension = scene.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".blend";
+}
+
+bool gltf_names_camera(const fs::path& gltf) {
+    const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
+    return json.is_object() && json.contains("/extensions/BOUNCE_scene/camera"_json_pointer);
 }
 
 bool is_gltf(const fs::path& gltf) {

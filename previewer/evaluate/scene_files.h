@@ -19,6 +19,12 @@ namespace bounce {
 // Whether the file lists the extension as used. False where it cannot be read, and for a .blend.
 [[nodiscard]] bool gltf_uses_extension(const std::filesystem::path& gltf, std::string_view name);
 
+// Whether the name is a .blend's, in small letters or capitals; all else is taken for glTF.
+[[nodiscard]] bool is_blend(const std::filesystem::path& scene);
+
+// Whether the file names the scene's active camera, as our exporter does where Blender has one.
+[[nodiscard]] bool gltf_names_camera(const std::filesystem::path& gltf);
+
 // Whether the file holds what a glTF begins with, a JSON object; it may still be none that can be loaded.
 [[nodiscard]] bool is_gltf(const std::filesystem::path& gltf);
 

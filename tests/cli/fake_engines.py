@@ -48,6 +48,8 @@ import os, shutil, sys, time
 if "--version" in sys.argv:
     print("f3d 9.9.9")
     sys.exit()
+if "--no-render" in sys.argv:
+    sys.exit()
 here = os.path.dirname(os.path.abspath(__file__))
 options = dict(word[2:].split("=", 1) for word in sys.argv[1:] if "=" in word)
 time.sleep(0.003 * open(options["interaction-test-play"]).read().count("KeyPress"))

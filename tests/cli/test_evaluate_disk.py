@@ -49,9 +49,10 @@ def can_mount():
 
 
 # What is full, how much room it has, and what is said. In an output folder of 12 kB there is room for the measured point
-# alone; TMPDIR's 32 kB hold the scripts and not all pictures. In the cache folder the driver keeps its shaders as well.
+# alone; TMPDIR's 16 kB do not hold the scripts, its 32 kB those and not all pictures. In the cache folder the driver keeps its shaders as well.
 FULL = [("report", "12k", 1, "the disk may be full"),
         ("cache", "8k", 0, "is not kept for later runs"),
+        ("temporary", "16k", 1, "there is no room for temporary files"),
         ("temporary", "32k", 1, "there is no room for temporary files")]
 
 

@@ -93,7 +93,7 @@ def test_missing_engines_are_sentences(bounce, scene, engines, tmp_path):
 
 @pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed here; Debian's package chromium")
 def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
-    done = bounce(*arguments_of(engines, scene, "report"), environment=environment_of(engines, tmp_path))
+    done = bounce(*arguments_of(engines, scene, "report"), "--final-render", environment=environment_of(engines, tmp_path))
     assert done.returncode == 0, done.stderr
     page = tmp_path / "elsewhere.html"
     os.rename(tmp_path / "report/index.html", page)  # alone, without the folder beside it
@@ -177,6 +177,14 @@ def test_the_page_works_in_a_browser(bounce, scene, engines, tmp_path):
         for wanted in (sorted(steps), sorted(steps, reverse=True)):
             window.evaluate("document.querySelector('#sequence th:nth-child(3) button').click()")
             assert window.evaluate(column) == pytest.approx(wanted, rel=0.01)
+        # The final render: every point below the matched reference, and among the pictures.
+        assert window.evaluate("document.querySelectorAll('#final tbody tr').length") == len(points) + 1
+        assert "Matched reference" in window.evaluate("document.querySelector('#final tbody tr').textContent")
+        window.evaluate("(() => { const s = document.getElementById('right'); s.value = 'Final render';"
+                        "s.dispatchEvent(new Event('change')); })()")
+        window.wait("document.getElementById('right-image').naturalWidth === 32")
+        assert "own light paths" in window.evaluate("document.getElementById('right-caption').textContent")
+        assert not window.evaluate("document.getElementById('maps').hidden"), "of the picture to the left"
         assert window.evaluate("document.querySelectorAll('#sequence-meanings dt').length") == 3, "no flicker of two frames"
         assert "HDR" in window.evaluate("document.getElementById('points').textContent")
 

@@ -30,6 +30,11 @@ TEST(MakePoint, IsTheMeanOverFrames) {
 TEST(MakePoint, MeansOfEveryFigure) {
     FrameError first{1, 0.1, 0.02, 0.3, 0.2, 0.9, 30, 0.01, 0};
     FrameError second{2, 0.1, 0.02, 0.5, 0.2, 0.7, 40, 0.01, 0};
+    first.nrmse = 0.25;
+    second.nrmse = 0.75;
+    second.smape = 0.5;
+    first.bias_rgb = {0.1, 0.2, -0.4};
+    second.bias_rgb = {0.3, 0.2, 0.2};
     first.flip_hdr = 0.25;
     second.flip_hdr = 0.75;
     const CurvePoint mean = make_point("x", {first, second});
@@ -37,6 +42,11 @@ TEST(MakePoint, MeansOfEveryFigure) {
     EXPECT_NEAR(mean.ssim, 0.8, 1e-12);
     EXPECT_NEAR(mean.psnr_db, 35.0, 1e-12) << "of the decibels";
     EXPECT_NEAR(mean.flip_hdr, 0.5, 1e-12);
+    EXPECT_NEAR(mean.nrmse, 0.5, 1e-12);
+    EXPECT_NEAR(mean.smape, 0.25, 1e-12);
+    EXPECT_NEAR(mean.bias_rgb[0], 0.2, 1e-12);
+    EXPECT_NEAR(mean.bias_rgb[1], 0.2, 1e-12);
+    EXPECT_NEAR(mean.bias_rgb[2], -0.1, 1e-12);
     second.flip_hdr = k_nan;
     EXPECT_TRUE(std::isnan(make_point("x", {first, second}).flip_hdr)) << "not of a part of the frames";
 }

@@ -1,68 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/evaluation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "environment.h"
 #include "evaluate/report.h"
-#include "fake_programs.h"
-#include "file_size_limit.h"
-#include "temporary_folder.h"
+#include "evaluate_fixture.h"
 #include "triangle_gltf.h"
 
 namespace bounce {
 namespace {
 
-using test::Environment;
-using test::TemporaryFolder;
-
-class EvaluateTest : public testing::Test {
-  protected:
-    EvaluateTest()
-        : cache_("XDG_CACHE_HOME", (folder_ / "cache").string()),
-          addon_("BOUNCE_ADDON", (folder_ / "addon").string()) {
-        std::filesystem::create_directories(folder_ / "addon");
-        std::ofstream(folder_ / "addon/export_cli.py") << "#\n";
-        std::ofstream(folder_ / "scene.glb") << "the scene";
-        test::write_constant(folder_ / "picture.exr", 0.6F, 8, 4);
-        test::write_constant(folder_ / "cycles.exr", 0.5F, 8, 4);
-        options_.scene = folder_ / "scene.glb";
-        options_.frames = {1, 24};
-        options_.width = 8;
-        options_.height = 4;
-        options_.reference.spp = 32;
-        options_.cycles_spp = {1, 4};
-        options_.bounce = test::fake_bounce(folder_.path());
-        options_.source.blender = test::fake_blender(folder_.path());
-        options_.runs = {
-            {"Direct", "direct", {"--technique", "direct"}}, {"RSM", "112", {}}, {"RSM", "224", {}}};
-    }
-
-    [[nodiscard]] long calls(const std::string& name) const {
-        std::ifstream in(folder_ / name);
-        return std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
-    }
-
-    // The description of each job that Blender was started with, in order.
-    [[nodiscard]] std::vector<std::string> blender_jobs() const {
-        std::ifstream in(folder_ / "blender_calls");
-        std::vector<std::string> jobs;
-        for (std::string line; std::getline(in, line);) jobs.push_back(line);
-        return jobs;
-    }
-
-    TemporaryFolder folder_;
-    Environment cache_;
-    Environment addon_;
-    EvaluateOptions options_;
-};
+using test::EvaluateTest;
 
 TEST_F(EvaluateTest, MeasuresEveryRunAgainstTheReference) {
     const Evaluation result = evaluate(options_);
@@ -213,84 +166,6 @@ TEST_F(EvaluateTest, AGivenReferenceAndALadder) {
     EXPECT_EQ(job.find("\"spp\": 16"), std::string::npos) << "half a reference was rendered";
 }
 
-// The program fails at its third call: the two points before are kept, and the next run draws the third
-// alone.
-TEST_F(EvaluateTest, AKilledSweepGoesOnWhereItStopped) {
-    const std::filesystem::path whole = options_.bounce;
-    options_.point_folder = folder_ / "points";
-    options_.resume = true;
-    options_.runs[1].render_arguments = {"--vpls", "64"};
-    options_.runs[2].render_arguments = {"--vpls", "128"};
-    // One program, so that its hash stays: it ends where the file `kill` is there and two calls were made.
-    options_.bounce = test::write_script(
-        folder_ / "killable",
-        "#!/bin/sh\ncd '" + folder_.path().string() +
-            "'\n[ -e kill ] && [ -e bounce_calls ] && [ $(wc -l < bounce_calls) -ge 2 ] && exit 137\n"
-            "exec '" +
-            whole.string() + "' \"$@\"\n");
-    std::ofstream(folder_ / "kill") << "";
-    EXPECT_THROW((void)evaluate(options_), Error);
-    EXPECT_EQ(calls("bounce_calls"), 2);
-    std::filesystem::remove(folder_ / "kill");
-    const Evaluation result = evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 3);
-    EXPECT_EQ(result.curves[2].points.size(), 2U);
-    (void)evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 3) << "all points are there";
-    options_.resume = false;
-    (void)evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 6) << "measured afresh unless told otherwise";
-    options_.resume = true;
-    std::ofstream(folder_ / "scene.glb") << "another scene";
-    (void)evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 9);
-}
-
-TEST_F(EvaluateTest, BouncesFailureComesBeforeCyclesStarts) {
-    options_.bounce = test::write_script(folder_ / "broken", "#!/bin/sh\necho 'error: no OpenGL'\nexit 4\n");
-    try {
-        (void)evaluate(options_);
-        FAIL() << "evaluated";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::no_opengl);
-    }
-    EXPECT_EQ(calls("blender_calls"), 0);
-}
-
-TEST_F(EvaluateTest, CyclesFailureIsASentence) {
-    options_.source.blender = test::write_script(
-        folder_ / "failing",
-        "#!/bin/sh\n[ \"$1\" = --version ] && { echo Blender 9.9.9; exit 0; }\n"
-        "echo 'BOUNCE {\"event\": \"error\", \"message\": \"the scene has no active camera\"}'\nexit 1\n");
-    try {
-        (void)evaluate(options_);
-        FAIL() << "evaluated";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::input_refused);
-        EXPECT_NE(std::string(error.what()).find("scene.glb: the scene has no active camera"),
-                  std::string::npos);
-    }
-}
-
-TEST_F(EvaluateTest, AMissingDracoLibraryIsToldBeforeAnythingIsDrawn) {
-    const Environment none("BLENDER_EXTERN_DRACO_LIBRARY_PATH", "");
-    options_.scene =
-        test::write_triangle(folder_ / "scene.gltf", {{"extensionsUsed", {"KHR_draco_mesh_compression"}}});
-    try {
-        (void)evaluate(options_);
-        FAIL() << "evaluated";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::failed);
-        EXPECT_NE(std::string(error.what()).find("build the target extern_draco"), std::string::npos);
-    }
-    EXPECT_EQ(calls("bounce_calls") + calls("blender_calls"), 0);
-    std::filesystem::create_directories(folder_ / "build/release");
-    std::ofstream(folder_ / "build/release/libextern_draco.so") << "a library";
-    EXPECT_FALSE(evaluate(options_).references[0].cached);
-    std::filesystem::remove_all(folder_ / "build");
-    EXPECT_TRUE(evaluate(options_).references[0].cached) << "what is finished needs no Draco";
-}
-
 TEST_F(EvaluateTest, AChangedBufferBesideAFileMakesAnotherReference) {
     options_.scene = test::write_triangle(folder_ / "scene.gltf");
     EXPECT_FALSE(evaluate(options_).references[0].cached);
@@ -314,99 +189,32 @@ TEST_F(EvaluateTest, BlenderIsToldWhatBounceShowsWhereAFileSaysNothing) {
     EXPECT_GT(job["defaults"]["world"]["strength"], 0.0);
 }
 
-TEST_F(EvaluateTest, AProgramThatIsNotBlenderIsRefused) {
-    options_.source.blender = test::write_script(folder_ / "other", "#!/bin/sh\necho hello\n");
-    EXPECT_THROW((void)evaluate(options_), Error);
-}
-
-// Stopped behind three of four renders, first of Cycles' points and then of the references' halves.
-TEST_F(EvaluateTest, GoesOnWhereItStopped) {
-    options_.point_folder = folder_ / "report/points";
-    options_.resume = true;
-    std::ofstream(folder_ / "cycles_fail_after") << 3;
-    EXPECT_THROW((void)evaluate(options_), Error);
-    EXPECT_EQ(calls("bounce_calls"), 3);
-    std::filesystem::remove(folder_ / "cycles_fail_after");
+// The scene's own light paths give 0.75 where Bounce's give 0.5: against it the reference is a third too
+// dark.
+TEST_F(EvaluateTest, TheFinalRenderIsASecondReference) {
+    EXPECT_FALSE(evaluate(options_).final_render);
+    test::write_constant(folder_ / "cycles_own.exr", 0.75F, 8, 4);
+    options_.final_render = true;
     const Evaluation result = evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 3) << "the runs were there";
-    EXPECT_EQ(calls("pass_calls"), 3) << "their passes are timed at the end";
-    EXPECT_DOUBLE_EQ(result.curves[1].points[0].seconds, 0.020);
-    EXPECT_EQ(result.curves[1].points[0].rss_peak_bytes, 8U);
-    std::vector<std::string> jobs = blender_jobs();
-    ASSERT_EQ(jobs.size(), 3U) << "the points twice, then the references";
-    EXPECT_NE(jobs[0].find("cycles_1_1.exr"), std::string::npos);
-    for (const char* finished : {"cycles_1_1.exr", "cycles_1_4.exr", "cycles_24_1.exr"}) {
-        EXPECT_EQ(jobs[1].find(finished), std::string::npos) << finished;
-    }
-    EXPECT_NE(jobs[1].find("cycles_24_4.exr"), std::string::npos);
-
-    options_.reference.spp = 64;
-    std::ofstream(folder_ / "cycles_fail_after") << 3;
-    EXPECT_THROW((void)evaluate(options_), Error);
-    std::filesystem::remove(folder_ / "cycles_fail_after");
-    EXPECT_EQ(evaluate(options_).references[1].spp, 64);
-    jobs = blender_jobs();
-    ASSERT_EQ(jobs.size(), 5U);
-    EXPECT_NE(jobs[3].find("24_1.exr"), std::string::npos);
-    EXPECT_EQ(jobs[4].find("\"frame\": 1,"), std::string::npos) << "the first frame's reference is whole";
-    EXPECT_EQ(jobs[4].find("24_1.exr"), std::string::npos) << "half of the second's is kept";
-    EXPECT_NE(jobs[4].find("24_2.exr"), std::string::npos);
-
-    // Another program is another measurement.
-    std::ofstream(options_.bounce, std::ios::app) << "# changed\n";
-    (void)evaluate(options_);
-    EXPECT_EQ(calls("bounce_calls"), 3 + 3);
-}
-
-// First of Cycles' points, then of the references' halves.
-TEST_F(EvaluateTest, APictureThatWasCutOffIsNotTheEndOfTheOthers) {
-    const auto failure = [&] {
-        try {
-            (void)evaluate(options_);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ExitCode::failed);
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    options_.point_folder = folder_ / "report/points";
-    options_.resume = true;
-    for (const int spp : {4, 16}) {
-        std::ofstream(folder_ / "cycles_cut") << spp;
-        const size_t before = blender_jobs().size();
-        EXPECT_NE(failure().find("a picture of Cycles is damaged"), std::string::npos) << spp;
-        EXPECT_LE(blender_jobs().size(), before + 2) << "it was rendered again and again";
-    }
-    std::filesystem::remove(folder_ / "cycles_cut");
-    EXPECT_EQ(evaluate(options_).references.size(), 2U);
-    const std::vector<std::string> jobs = blender_jobs();
-    ASSERT_EQ(jobs.size(), 4U);
-    EXPECT_EQ(jobs[1].find("cycles_1_1.exr"), std::string::npos) << "whole pictures are kept";
-    EXPECT_NE(jobs[1].find("cycles_24_4.exr"), std::string::npos);
-}
-
-TEST_F(EvaluateTest, NoRoomForPicturesIsASentence) {
-    std::ofstream(folder_ / "cycles_cut") << 4;
-    const test::FileSizeLimit limit(
-        60000);  // less than the room that a picture is given, more than anything here
-    try {
-        (void)evaluate(options_);
-        FAIL() << "evaluated";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::failed);
-        EXPECT_NE(std::string(error.what()).find("there is no room for temporary files in"),
-                  std::string::npos);
-    }
-}
-
-TEST_F(EvaluateTest, ACacheThatTakesNothingIsNotTheEnd) {
-    std::filesystem::create_directories(folder_ / "cache/bounce");
-    for (const char* name : {"references", "renders"}) {
-        std::ofstream(folder_ / "cache/bounce" / name) << "not a folder";
-    }
-    const Evaluation result = evaluate(options_);
-    EXPECT_EQ(result.references[1].spp, 32);
-    EXPECT_FALSE(result.references[1].cached);
+    ASSERT_TRUE(result.final_render);
+    ASSERT_EQ(result.final_render->references.size(), 2U);
+    EXPECT_EQ(result.final_render->references[1].frame, 24);
+    EXPECT_FLOAT_EQ(result.final_render->references[0].image.rgb[0], 0.75F);
+    EXPECT_NEAR(result.final_render->matched.bias, -1.0 / 3.0, 1e-6);
+    EXPECT_NEAR(result.final_render->matched.relmse, 0.0625 / (0.5625 + 0.01), 1e-6);
+    EXPECT_FLOAT_EQ(result.references[0].image.rgb[0], 0.5F) << "the matched one stays what it was";
+    const CurvePoint& point = result.curves[1].points[0];  // Bounce's pictures are 0.6
+    EXPECT_NEAR(point.bias, 0.2, 5e-4) << "pictures are written as halves";
+    ASSERT_TRUE(point.final_errors);
+    EXPECT_NEAR(point.final_errors->bias, -0.2, 5e-4);
+    EXPECT_NEAR(point.final_errors->relmse, 0.0225 / (0.5625 + 0.01), 1e-4);
+    const auto job = nlohmann::json::parse(blender_jobs().back());
+    EXPECT_TRUE(job.at("bounces").is_null());
+    const size_t before = blender_jobs().size();
+    EXPECT_TRUE(evaluate(options_).final_render->references[0].cached);
+    EXPECT_EQ(blender_jobs().size(), before) << "both references are kept, each under its own key";
+    write_report(result, folder_ / "report");
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "report/frames/final.0024.exr"));
 }
 
 TEST_F(EvaluateTest, LooksIntoTheFrames) {

@@ -57,7 +57,7 @@ echo "{\"gl\":{\"vendor\":\"v\",\"renderer\":\"r\",\"version\":\"4.5\"},\"frames
 )sh");
 }
 
-// `blender`: answers --version; as a renderer of the job it copies cycles.exr to each output, and tells
+// `blender`: answers --version; as a renderer of the job it copies cycles.exr to each output (cycles_own.exr by the scene's own light paths), and tells
 // of 2 s a sample, up to 1.5 and 4 s where it is asked for three renders. Its job files are appended to blender_calls; a file cycles_fail_after N ends it behind N renders, one
 // cycles_cut N cuts off the pictures of N samples, as the real one does without a word on a full disk.
 inline std::filesystem::path fake_blender(const std::filesystem::path& folder) {
@@ -82,7 +82,8 @@ for frame in job["frames"]:
         left -= 1
         tell(event="begin")
         print("Fra:1 | Scene, ViewLayer | Sample 0/%d" % item["spp"], flush=True)
-        shutil.copy(here + "/cycles.exr", item["output"])
+        own = job.get("bounces", 0) is None and os.path.exists(here + "/cycles_own.exr")
+        shutil.copy(here + ("/cycles_own.exr" if own else "/cycles.exr"), item["output"])
         if os.path.exists(here + "/cycles_cut") and int(open(here + "/cycles_cut").read()) == item["spp"]:
             os.truncate(item["output"], 300)
         tell(event="render", frame=frame["frame"], spp=item["spp"], seed=item["seed"], seconds=2.0 * item["spp"],
@@ -127,7 +128,7 @@ for frame in job["frames"]:
 )py");
 }
 
-// `f3d` in folder/bin: 100 ms of start and 5 ms a press; copies peer.png to its output. Its arguments are appended to
+// `f3d` in folder/bin: 100 ms of start, 40 ms without a window, and 5 ms a press; copies peer.png to its output. Its arguments are appended to
 // f3d_calls.
 inline std::filesystem::path fake_f3d(const std::filesystem::path& folder) {
     return write_script(folder / "bin/f3d", R"py(#!/usr/bin/env python3
@@ -135,6 +136,9 @@ import shutil, sys, time
 here = ')py" + folder.string() + R"py('
 if "--version" in sys.argv:
     print("f3d 9.9.9")
+    sys.exit()
+if "--no-render" in sys.argv:
+    time.sleep(0.04)
     sys.exit()
 open(here + "/f3d_calls", "a").write(" ".join(sys.argv[1:]) + "\n")
 options = dict(word[2:].split("=", 1) for word in sys.argv[1:] if "=" in word)

@@ -135,6 +135,9 @@ TEST_F(PeersTest, F3dTimesTheDifferenceOfTwoRuns) {
     EXPECT_GT(render.seconds, 0.003);
     EXPECT_LT(render.seconds, 0.02);
     EXPECT_GT(render.startup_seconds, 0.05);
+    // Load ends before the window opens.
+    EXPECT_GT(render.first_render_seconds, 0.0);
+    EXPECT_GT(render.startup_seconds - render.first_render_seconds, 0.04);
     EXPECT_EQ(render.export_seconds, 0.25);
     // 0.5 on the screen (128/255) is 0.2159 of light.
     EXPECT_NEAR(render.image.rgb[0], 0.2159F, 1e-3);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,21 +92,80 @@ TEST(ResultsJson, NotANumberBecomesNull) {
     EXPECT_TRUE(results_json(evaluation)["curves"][1]["points"][0]["relmse"].is_null());
 }
 
-TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
-    const std::string csv = results_csv(example());
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
-    EXPECT_THAT(csv,
-                HasSubstr("\"RSM\",\"112\",mean,0.1,0.01,0.02,0.1,0.9,30,-0.01,true,false,,,3.04964,30.4964,"
-                          "interpolated,,,,,,,,,,,\n"));
-    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,,,,,,,,,,,,\n"));
-    // Every row has as many columns as the head.
-    const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
-    size_t start = 0;
-    while (start < csv.size()) {
-        const size_t end = csv.find('\n', start);
-        EXPECT_EQ(columns(csv.substr(start, end - start)), 27) << csv.substr(start, end - start);
-        start = end + 1;
+// The rows of a table whose cells hold no commas, by the names in its head. Every row has as many cells as
+// that.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
+    const auto cells_of = [](const std::string& line) {
+        std::vector<std::string> cells;
+        std::istringstream in(line + ",");
+        for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+        return cells;
+    };
+    std::istringstream in(csv);
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> head = cells_of(line);
+    std::vector<std::map<std::string, std::string>> rows;
+    while (std::getline(in, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        EXPECT_EQ(cells.size(), head.size()) << line;
+        auto& row = rows.emplace_back();
+        for (size_t i = 0; i < std::min(cells.size(), head.size()); ++i) row[head[i]] = cells[i];
     }
+    return rows;
+}
+
+TEST(ResultsCsv, HasARowAPointAndOneAFrame) {
+    Evaluation evaluation = example();
+    FrameError error{1, 0.1, 0.01, 0.02, 0.1, 0.9, 30.0, -0.01, 0.3, 0.4, {0.1, 0.2, -0.3}, 2.5, 7, 3, 0};
+    evaluation.curves[1].points[0] = make_point("112", {error});
+    const auto rows = rows_of(results_csv(evaluation));
+    ASSERT_EQ(rows.size(), 4U * 2U);
+    auto mean = rows[4];
+    auto frame = rows[5];
+    const std::map<std::string, std::string> both{
+        {"curve", "\"RSM\""},       {"label", "\"112\""}, {"seconds", "0.1"}, {"relmse", "0.01"},
+        {"relmse_exposed", "0.02"}, {"flip_ldr", "0.1"},  {"flip_hdr", ""},   {"ssim", "0.9"},
+        {"psnr_db", "30"},          {"nrmse", "0.3"},     {"smape", "0.4"},   {"bias", "-0.01"},
+        {"bias_r", "0.1"},          {"bias_g", "0.2"},    {"bias_b", "-0.3"}, {"seconds_least", ""}};
+    for (const auto& [name, value] : both) {
+        EXPECT_EQ(mean.at(name), value) << name;
+        EXPECT_EQ(frame.at(name), value) << name;
+    }
+    EXPECT_EQ(mean.at("frame"), "mean");
+    EXPECT_EQ(frame.at("frame"), "1");
+    EXPECT_EQ(mean.at("ratio"), "30.4964");
+    EXPECT_EQ(mean.at("cycles_time"), "interpolated");
+    EXPECT_EQ(frame.at("cycles_time"), "");
+    EXPECT_EQ(frame.at("max_abs") + " " + frame.at("max_x") + " " + frame.at("max_y"), "2.5 7 3");
+    EXPECT_EQ(mean.at("max_x"), "");
+}
+
+TEST(Results, HaveTheFinalRender) {
+    Evaluation evaluation = example();
+    EXPECT_TRUE(results_json(evaluation).at("final_render").is_null());
+    EXPECT_EQ(rows_of(results_csv(evaluation))[4].at("final_relmse"), "");
+    evaluation.final_render = FinalRender{evaluation.references, {0.25, 0.5, 0.75, 20.0, -0.125}};
+    evaluation.curves[1].points[0].final_errors = FinalErrors{0.5, 0.25, 0.875, 30.0, 0.0625};
+    const auto json = results_json(evaluation);
+    EXPECT_EQ(json["final_render"]["matched_reference"]["bias"], -0.125);
+    EXPECT_EQ(json["final_render"]["frames"].size(), 1U);
+    EXPECT_EQ(json["curves"][1]["points"][0]["final_render"]["flip_ldr"], 0.25);
+    const auto rows = rows_of(results_csv(evaluation));
+    EXPECT_EQ(rows[4].at("final_relmse"), "0.5");
+    EXPECT_EQ(rows[4].at("final_bias"), "0.0625");
+    EXPECT_EQ(rows[5].at("final_bias"), "") << "of the mean alone";
+    EXPECT_THAT(results_table(evaluation),
+                HasSubstr("the reference itself is off by relMSE 0.25, FLIP 0.5000, -12.50%"));
+}
+
+TEST(ResultsCsv, WhatIsNoNumberIsEmpty) {
+    Evaluation evaluation = example();
+    evaluation.curves[1].points[0].relmse = std::numeric_limits<double>::quiet_NaN();
+    evaluation.curves[1].points[0].psnr_db = std::numeric_limits<double>::infinity();
+    const auto rows = rows_of(results_csv(evaluation));
+    EXPECT_EQ(rows[4].at("relmse"), "");
+    EXPECT_EQ(rows[4].at("psnr_db"), "");
 }
 
 // As an evaluation of frames 1 and 2 leaves it, with TID and HDR-FLIP and too short for a spectrum.
@@ -136,12 +197,23 @@ Evaluation sequence() {
 }
 
 TEST(ResultsCsv, HasTheSequencesFiguresInTheMeansRow) {
-    const std::string csv = results_csv(sequence());
-    EXPECT_THAT(csv, HasSubstr(",cycles_time,flip_hdr,flip_step_mean,flip_step_max,flip_step_reference_mean,"
-                               "flip_step_reference_max,tid,tid_relative,tid_reference,tid_coverage,"
-                               "flicker_power,flicker_share\n"));
-    EXPECT_THAT(csv, HasSubstr(",interpolated,0.875,0.25,0.25,0.0625,0.0625,0.25,0.5,0.375,1,,\n"));
-    EXPECT_THAT(csv, HasSubstr("\"RSM\",\"112\",1,0.1,0.01,0.02,0.1,0.9,30,-0.01,,,,,,,,0.875,,,,,,,,,,\n"));
+    const auto rows = rows_of(results_csv(sequence()));
+    const std::map<std::string, std::string> figures{{"flip_step_mean", "0.25"},
+                                                     {"flip_step_max", "0.25"},
+                                                     {"flip_step_reference_mean", "0.0625"},
+                                                     {"flip_step_reference_max", "0.0625"},
+                                                     {"tid", "0.25"},
+                                                     {"tid_relative", "0.5"},
+                                                     {"tid_reference", "0.375"},
+                                                     {"tid_coverage", "1"},
+                                                     {"flicker_power", ""},
+                                                     {"flicker_share", ""}};
+    for (const auto& [name, value] : figures) {
+        EXPECT_EQ(rows[4].at(name), value) << name;
+        EXPECT_EQ(rows[5].at(name), "") << name;
+    }
+    EXPECT_EQ(rows[4].at("flip_hdr"), "0.875");
+    EXPECT_EQ(rows[5].at("flip_hdr"), "0.875");
 }
 
 TEST(ResultsJson, HasTheSequenceOfEachPoint) {

@@ -23,5 +23,25 @@ TEST(IsGltf, TellsAnObjectFromAnythingElse) {
     EXPECT_FALSE(is_gltf(folder / "missing.gltf"));
 }
 
+TEST(IsBlend, CapitalsAreNoOtherKind) {
+    for (const char* name : {"a.blend", "a.BLEND", "a.b.Blend"}) EXPECT_TRUE(is_blend(name)) << name;
+    for (const char* name : {"a.glb", "blend", "a.blend1", "a.blend.glb", ""})
+        EXPECT_FALSE(is_blend(name)) << name;
+}
+
+TEST(NamesCamera, IsWhatOurExporterWrites) {
+    const test::TemporaryFolder folder;
+    const std::pair<std::string, bool> cases[] = {
+        {R"({"extensions": {"BOUNCE_scene": {"camera": 0}}})", true},
+        {R"({"extensions": {"BOUNCE_scene": {}}})", false},
+        {R"({"cameras": [{}]})", false},
+        {R"({"extensions": []})", false},
+        {"no glTF", false}};
+    for (const auto& [text, expected] : cases) {
+        std::ofstream(folder / "a.gltf") << text;
+        EXPECT_EQ(gltf_names_camera(folder / "a.gltf"), expected) << text;
+    }
+}
+
 }  // namespace
 }  // namespace bounce

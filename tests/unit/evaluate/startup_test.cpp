@@ -63,6 +63,18 @@ TEST(StartUps, AreStatedApartOfEveryEngine) {
     EXPECT_THAT(rows[3].note, HasSubstr("f3d does not tell apart"));
 }
 
+TEST(StartUps, F3dsFirstRenderIsApartWhereItsLoadWasTimed) {
+    Evaluation evaluation = all_engines();
+    evaluation.peers[1].points[0].frames[0].render.first_render_seconds = 3.5;  // of 4 s of start
+    const auto rows = startups_of(evaluation, {}, 0.0, {.display = 3.0, .blender = 1.0, .f3d = 0.25});
+    const StartUp& row = rows.back();
+    EXPECT_EQ(row.display_seconds, 3.0);
+    EXPECT_EQ(row.start_seconds, 0.25);
+    EXPECT_EQ(row.load_seconds, 0.25);
+    EXPECT_EQ(row.first_render_seconds, 0.5);
+    EXPECT_THAT(row.note, Not(HasSubstr("tell apart")));
+}
+
 // A start that was timed on a busier machine than the run, or not at all, is not taken off.
 TEST(StartUps, WhatDoesNotFitIsNotTakenOff) {
     for (const EngineStarts& starts :
