@@ -74,8 +74,9 @@ uint pack_distant(float depth, vec2 slope, float size) {
     depth += texel_size * (1.0 / 32.0 + 0.5 * (missing.x + missing.y));
     // What lies before the map hides all that is in it.
     steps = depth < -1.0 ? ivec2(0) : steps;
-    return uint(clamp(ceil((0.5 * depth + 0.5) * 65535.0), 0.0, 65534.0)) << 16 | uint(steps.x & 0xff) |
-           uint(steps.y & 0xff) << 8;
+    uint bits = uint(clamp(ceil((0.5 * depth + 0.5) * 65535.0), 0.0, 65534.0)) << 16 | uint(steps.x & 0xff) |
+                uint(steps.y & 0xff) << 8;
+    return depth > 1.0 ? ISM_EMPTY : bits;
 }
 
 bool distant_lit(uint bits, float depth, vec2 from_center, float size) {

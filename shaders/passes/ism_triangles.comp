@@ -60,15 +60,15 @@ Wedge make_prism(GpuVpl vpl, int triangle) {
     // triangle in it shows it (passes/triangle_seals.comp).
     float half_texel = 1.0 / float(ism.atlas.x);
     for (int i = 0; i < 3; ++i) {
-        float sealed = max(triangles[3 * triangle + i].w - 1.0, 0.0);
+        float sealed = max(abs(triangles[3 * triangle + i].w) - 1.0, 0.0);
         w.edges[i].z += sealed * half_texel * (abs(w.edges[i].x) + abs(w.edges[i].y));
     }
     bool seen = abs(across.z) > 1e-4 * length(across);
     across /= seen ? across.z : 1.0;
     w.normal = vec3(across.xy, 1.0 - dot(across, a));
-    // Seen from its edge it hides nothing; nor does one on the hull that all of the scene, with the map's middle, lies
-    // before. Drawn beyond its edge, that would take the place of the one it meets there.
-    bool last = triangles[3 * triangle].w > 0.5 && dot(across, a) > 0.0;
+    // Seen from its edge it hides nothing; nor does one on the hull that all of the scene lies before. Drawn beyond its
+    // edge, that would take the place of the one it meets there.
+    bool last = triangles[3 * triangle].w * side < -0.5;
     w.inverse_plane = seen && !last ? 1.0 : 0.0;
     return w;
 }

@@ -3,8 +3,8 @@
 // Finds the edges of large triangles on the scene's hull along which another of them goes on: there light from outside
 // cannot come in, and shadow maps of the world draw the triangle half a texel beyond its edge (passes/ism_triangles.comp).
 // Behind such an edge there is nothing that it could hide by mistake: all of the scene lies on one side of either plane.
-// Writes 2 to w of such an edge's first corner and 1 to that of others; other triangles have 0. Runs rarely; a thread a
-// triangle.
+// Writes 2 to w of such an edge's first corner and 1 to that of others, negative where the scene lies on the side that
+// the triangle is seen clockwise from; other triangles have 0. Runs rarely; a thread a triangle.
 #include "shared/bindings.h"
 
 layout(local_size_x = GROUP_1D) in;
@@ -39,6 +39,14 @@ void main() {
     if (me >= hull.y) {
         return;
     }
+    // The mean of corners on the hull is within it.
+    vec3 middle = vec3(0.0);
+    for (int i = 0; i < hull.y; ++i) {
+        middle += (corner(hull.x + i, 0) + corner(hull.x + i, 1) + corner(hull.x + i, 2)) / float(3 * hull.y);
+    }
+    vec3 a = corner(hull.x + me, 0);
+    vec3 across = cross(corner(hull.x + me, 1) - a, corner(hull.x + me, 2) - a);
+    float side = dot(across, middle - a) < 0.0 ? -1.0 : 1.0;
     for (int edge = 0; edge < 3; ++edge) {
         bool sealed = true;
         for (int i = 0; i < 4; ++i) {
@@ -49,6 +57,6 @@ void main() {
             }
             sealed = sealed && covered;
         }
-        triangles[3 * (hull.x + me) + edge].w = sealed ? 2.0 : 1.0;
+        triangles[3 * (hull.x + me) + edge].w = side * (sealed ? 2.0 : 1.0);
     }
 }

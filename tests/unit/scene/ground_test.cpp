@@ -36,7 +36,7 @@ Found find(const Scene& scene) {
 TEST(Ground, IsTheWidestPlaneOnTheHullAndTheRestStandsOnIt) {
     Scene scene;
     const int ground = place_mesh(scene, add_mesh(scene, square(100.0F)), moved({20.0, 0.0, 0.0}));
-    const int tile = place_mesh(scene, add_mesh(scene, square(1.0F)), moved({-3.0, 0.0, 0.0}));
+    const int tile = place_mesh(scene, add_mesh(scene, square(10.0F)), moved({-3.0, 0.0, 0.0}));
     const int object = place_mesh(scene, add_mesh(scene, triangle_soup(40, 2)), moved({0.0, 0.0, 1.5}));
     const Found found = find(scene);
     EXPECT_TRUE(found.node(ground));
