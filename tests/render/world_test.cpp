@@ -166,7 +166,8 @@ TEST_F(WorldLight, AWhiteCornerFillsUpToTheWorld) {
     camera.world_from_camera = moved({0.7, 0.0, 0.0}) * camera.world_from_camera;
     Settings settings = lit_directly(256);
     const double direct = middle(draw(scene, camera, settings));
-    // By the form factor of the wall, (atan(1 / x) - x / r atan(1 / r)) / pi at its middle with r^2 = x^2 + 4.
+    // By the form factor of the wall, (atan(1 / x) - x / r atan(1 / r)) / pi at its middle with r^2 = x^2
+    // + 4.
     EXPECT_NEAR(direct, 1.0 - 0.259, 0.02);
     settings.technique = Technique::ism;
     settings.bounces = 4;
