@@ -238,6 +238,14 @@ void RenderOptions::add_to(CLI::App& command) {
                  "others are as "
                  "in the papers on reflective and imperfect shadow maps",
                  "auto");
+    group.number(
+        "--world-vpls", world_vpls,
+        fmt::format(
+            "Lights at infinity that stand for the world's light, each with an imperfect shadow map, in any "
+            "technique, 0 to {}; 0: it reaches every surface as if nothing stood in its way, and does "
+            "not bounce",
+            k_most_vpls),
+        std::to_string(Settings{}.world_vpls));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
@@ -277,6 +285,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(vpls, out.vpls);
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
+    set(world_vpls, out.world_vpls);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(near_field, out.near_field);

@@ -40,6 +40,7 @@ struct RenderOptions {
     std::optional<int> vpls;
     std::optional<int> bounces;
     std::optional<int> bounce_vpls;
+    std::optional<int> world_vpls;
     std::optional<int> interleave;
     std::optional<bool> near_field;
     std::optional<bool> glossy;

@@ -74,9 +74,14 @@ double short_digits(float value) {
 
 ordered_json settings_json(const Settings& s) {
     ordered_json out = {
-        {"width", s.width},        {"height", s.height},           {"technique", name_of(s.technique)},
-        {"show", name_of(s.show)}, {"shadow_size", s.shadow_size}, {"antialias", s.antialias},
-        {"samples", s.samples}};
+        {"width", s.width},
+        {"height", s.height},
+        {"technique", name_of(s.technique)},
+        {"show", name_of(s.show)},
+        {"shadow_size", s.shadow_size},
+        {"antialias", s.antialias},
+        {"samples", s.samples},
+        {"world_vpls", s.world_vpls}};
     if (s.technique != Technique::direct) {
         out["rsm_size"] = s.used_rsm_size();
     }

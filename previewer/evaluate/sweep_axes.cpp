@@ -58,6 +58,8 @@ const std::vector<SweepAxis>& sweep_axes() {
           {"ism", {"--technique", "ism"}}}},
         {"vpls", "VPLs", "virtual point lights of the first bounce: --vpls",
          values("--vpls", {16, 32, 64, 128, 256, 512, 1024, 2048}, "{} VPLs")},
+        {"world-vpls", "World lights", "lights at infinity that stand for the world: --world-vpls",
+         values("--world-vpls", {0, 64, 256, 1024}, "{} world lights")},
         {"points", "Points", "points splatted into each map: --points",
          values("--points", {64, 256, 1024, 4096, 16384}, "{} points")},
         {"ism-size", "Map size", "side of each imperfect shadow map: --ism-size",

@@ -133,6 +133,7 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     const bool disks = settings.technique == Technique::ism && settings.visibility == Visibility::ism &&
                        settings.splat == Splat::disks;
     plan.close_maps = disks && !holes;
+    plan.close_world = !holes;
     if (disks && holes) {
         plan.left_out.push_back({"ism close", "a material has holes, which closing would fill"});
     }
@@ -173,8 +174,6 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.near_field = plan.vpls && settings.near_field;
-    plan.glossy = plan.vpls && settings.glossy_bounces;
-    plan.occluded = plan.vpls && settings.visibility != Visibility::none;
     plan.bounces = plan.vpls ? settings.bounces : 0;
     plan.interpolate = plan.indirect && settings.technique == Technique::rsm && settings.interpolate &&
                        settings.lowres_step > 1 && !settings.rsm_full_sum;
@@ -191,9 +190,26 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     }
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
-    if (plan.world_light) {
+    plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
+    if (!plan.world_occluded) {
+        plan.left_out.push_back({"world lights", !plan.world_light && whole ? "the world is black"
+                                                 : !plan.world_light ? "the layer shows other light alone"
+                                                 : settings.world_vpls == 0
+                                                     ? "the world's light was asked for without what hides it"
+                                                     : "nothing that is drawn has a triangle"});
+    }
+    plan.world_bounces =
+        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
+            ? settings.bounces
+            : 0;
+    // The option is one of technique ism; what surfaces reflect of the world directly has both lobes
+    // everywhere.
+    plan.glossy = (plan.vpls || plan.world_occluded) &&
+                  (settings.glossy_bounces || settings.technique != Technique::ism);
+    plan.occluded = (plan.vpls || plan.world_bounces > 0) && settings.visibility != Visibility::none;
+    if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
-    } else if (whole) {
+    } else if (!plan.world_light && whole) {
         plan.left_out.push_back({"world light", "the world is black"});
     }
     return plan;

@@ -20,16 +20,19 @@ struct FramePlan {
     bool direct = false;
     bool indirect = false;      // any bounced light
     bool vpls = false;          // bounced light by virtual point lights
-    bool occluded = false;      // and these are occluded
+    bool occluded = false;      // these, or those of the world's bounces, are occluded
     int bounces = 0;            // of light by virtual point lights
     bool glossy = false;        // with the glossy lobes of lights and receivers
     bool narrow_lobes = false;  // some so narrow that they change within a block of interleaved pixels
     bool close_maps = false;    // bare places in maps of disks are closed
+    bool close_world = false;   // and in those of the world's lights
     bool near_field = false;    // what is near the lights is gathered from the RSMs
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;
-    bool world_light = false;
+    bool world_light = false;                 // the world is not black
+    bool world_occluded = false;              // and stands as virtual point lights
+    int world_bounces = 0;                    // of its light
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`

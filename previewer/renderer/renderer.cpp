@@ -15,6 +15,7 @@
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
+#include "renderer/world_lights.h"
 
 namespace bounce {
 namespace {
@@ -37,14 +38,18 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
     return frame;
 }
 
+double box_surface_m2(const scene::Bounds& box) {
+    const glm::dvec3 side = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
+    return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+}
+
 // Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would
 // give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
 // what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
 // itself.
-float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
-    const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
-    const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box;
+float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds, double world_irradiance) {
+    const double box = box_surface_m2(bounds);
+    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box + world_irradiance;
     if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
         return 1.0F;
     }
@@ -57,11 +62,11 @@ constexpr int k_irsm_size = 32;
 
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
-    return plan.occluded && settings.visibility == Visibility::ism;
+    return plan.world_occluded || (plan.occluded && settings.visibility == Visibility::ism);
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1;
+    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0;
 }
 
 passes::VplSet vpl_set(const IsmLayout& layout) {
@@ -77,22 +82,34 @@ passes::VplSet vpl_set(const IsmLayout& layout) {
     return set;
 }
 
+// Maps that hold all of a box from wherever they look, and half a hundredth more for what touches its
+// corners.
+DistantMaps distant_maps(const scene::Bounds& box, const gpu::RenderSpace& space) {
+    return {glm::vec3(space.point(box.center())),
+            static_cast<float>(std::max(0.505 * box.diagonal() * space.scale, 1e-6))};
+}
+
 // Lights of further bounces are drawn from a table of every lighted point, which must fit into one block of
 // what shaders read.
-void require_fitting_sums(const Settings& settings, int points_a_map, int bounces) {
-    if (bounces < 2 || settings.splat_irsms) {
-        return;
+void require_fitting_sums(const Settings& settings, const FramePlan& plan, int points_a_map) {
+    const bool tables = !settings.splat_irsms;  // of lights within the scene
+    int lights = plan.world_bounces > 0 ? settings.world_vpls : 0;
+    const char* option = "--world-vpls";
+    for (const auto& [count, name] :
+         {std::pair(tables && plan.bounces > 1 ? settings.vpls : 0, "--vpls"),
+          std::pair(tables && (plan.bounces > 2 || plan.world_bounces > 1) ? settings.bounce_vpls : 0,
+                    "--bounce-vpls")}) {
+        option = count > lights ? name : option;
+        lights = std::max(lights, count);
     }
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    const int lights = bounces > 2 ? std::max(settings.vpls, settings.bounce_vpls) : settings.vpls;
     const int64_t bytes = int64_t{lights} * points_a_map * int64_t{sizeof(float)};
     if (bytes > most) {
         throw usage_error(fmt::format(
             "{} virtual point lights with {} points each are too many for this OpenGL driver to draw further "
             "bounces from: lower {} to {}, or give --bounces 1",
-            lights, points_a_map, lights == settings.vpls ? "--vpls" : "--bounce-vpls",
-            most / (int64_t{sizeof(float)} * points_a_map)));
+            lights, points_a_map, option, most / (int64_t{sizeof(float)} * points_a_map)));
     }
 }
 
@@ -101,8 +118,9 @@ void require_fitting_sums(const Settings& settings, int points_a_map, int bounce
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
 
-std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
-                                              FramePlan& plan, FrameReport& report) {
+Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
+                                               FramePlan& plan, FrameReport& report) {
+    LitBounces out;
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
     if (needs_points && !points_) {
@@ -120,21 +138,30 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
         const bool drop_hull = settings.drop_hull && !fills;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
+        // Lines through what stands on a wide ground meet more of it than lines through the box around both.
+        const double around = plan.world_occluded ? box_surface_m2(points_->first_ground().rest) : hull;
         first.points_a_map = settings.ism_points > 0
                                  ? settings.ism_points
-                                 : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
+                                 : automatic_points(settings.ism_size, depth_complexity(occluding, around));
         irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
-        require_fitting_sums(settings, irsm.points_a_map, plan.bounces);
+        require_fitting_sums(settings, plan, irsm.points_a_map);
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
         counts.occluders = splats ? points_in_all(first) : 0;
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
-        counts.reflectors = plan.bounces > 1 ? points_in_all(irsm) : 0;
+        IsmLayout most = irsm;
+        most.vpls = std::max(most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0);
+        counts.reflectors = plan.bounces > 1 || plan.world_bounces > 0 ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
-        points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull);
+        // What is on the hull hides no place of the scene from another, but the world from both.
+        counts.hull_hides = plan.world_occluded;
+        points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull,
+                          plan.world_bounces > 0);
+        out.triangles =
+            static_cast<int>(drop_hull ? points_->large_triangles_inside() : points_->large_triangles());
         mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
                       gpu_scene_.space().scale;
-        if (splats && points_->occluders() == 0 && points_->large_triangles() == 0) {
+        if (splats && points_->occluders() == 0 && out.triangles == 0) {
             plan.occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
@@ -143,8 +170,9 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
                     "there are no shadow maps to show: nothing stands between two places of the scene");
             }
         }
-        if (plan.bounces > 1 && points_->reflectors() == 0) {
-            plan.bounces = 1;
+        if ((plan.bounces > 1 || plan.world_bounces > 0) && points_->reflectors() == 0) {
+            plan.bounces = std::min(plan.bounces, 1);
+            plan.world_bounces = 0;
             plan.left_out.push_back({"further bounces", "no surface has an area, so none has a point"});
             plan.notes.emplace_back("no further bounces: no surface has an area");
         }
@@ -159,21 +187,44 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         report.atlas_width = first.atlas_width();
         report.atlas_height = first.atlas_height();
     }
-    std::vector<Bounce> out;
-    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
-        const IsmLayout layout = ism_layout(settings, bounce, first.points_a_map);
-        Bounce& added = out.emplace_back();
-        added.lights = vpl_set(layout);
-        report.vpls += layout.vpls;
-        const size_t occluders = needs_points ? points_->occluders() : 0;
-        added.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
+    const size_t occluders = needs_points ? points_->occluders() : 0;
+    const size_t reflectors = needs_points ? points_->reflectors() : 0;
+    const double dense_area = needs_points ? points_->dense_reflector_area_m2() * gpu_scene_.space().scale *
+                                                 gpu_scene_.space().scale
+                                           : 0.0;
+    const auto make_bounce = [&](const IsmLayout& layout, const Settings& of) {
+        Bounce bounce;
+        bounce.lights = vpl_set(layout);
+        bounce.lights.uniforms = uniforms_.add(ism_uniforms(layout, of, occluders, mean_radius));
         IsmLayout maps = layout;
         maps.map_size = irsm.map_size;
         maps.points_a_map = irsm.points_a_map;
         maps.shadow_map_size = layout.map_size;
-        added.irsms = vpl_set(maps);
-        added.irsms.uniforms = uniforms_.add(
-            irsm_uniforms(maps, settings, needs_points ? points_->reflectors() : 0, occluders, mean_radius));
+        bounce.irsms = vpl_set(maps);
+        bounce.irsms.uniforms =
+            uniforms_.add(irsm_uniforms(maps, of, reflectors, occluders, mean_radius, dense_area));
+        report.vpls += layout.vpls;
+        return bounce;
+    };
+    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
+        out.bounces.push_back(make_bounce(ism_layout(settings, bounce, first.points_a_map), settings));
+    }
+    if (plan.world_occluded) {
+        const IsmLayout layout = world_layout(settings, first.points_a_map);
+        const std::vector<gpu::GpuVpl> made =
+            world_lights(pose.world.color * pose.world.strength, layout,
+                         distant_maps(points_->ground(pose).rest, gpu_scene_.space()));
+        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
+        // are.
+        Settings disks = settings;
+        disks.splat = passes::Splat::disks;
+        disks.splat_irsms = false;
+        out.world = make_bounce(layout, disks);
+        out.world.lights.distant = true;
+    }
+    for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
+        out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
     }
     return out;
 }
@@ -246,7 +297,10 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         fluxes.push_back(setup.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
-    const float scale = half_scale(fluxes, gpu_scene_.bounds());
+    const glm::vec3 radiance = pose.world.color * pose.world.strength;
+    const float scale = half_scale(
+        fluxes, gpu_scene_.bounds(),
+        plan.world_occluded ? std::numbers::pi * std::max({radiance.r, radiance.g, radiance.b}) : 0.0);
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples, scale));
     };
@@ -260,7 +314,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
-    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
+    const LitBounces bounces = prepare_bounces(pose, settings, plan, report);
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -294,7 +348,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .gather_frames = gather_frames,
                     .patterns = patterns,
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
-                    .bounces = bounces,
+                    .bounces = bounces.bounces,
+                    .world = bounces.world,
+                    .world_lights = &world_lights_,
+                    .world_bounces = bounces.world_bounces,
+                    .triangles_inside = bounces.triangles,
                     .previous = previous_frame,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,

@@ -86,6 +86,7 @@ struct Settings {
     int bounces = 1;
     int vpls = 256;         // of the first bounce
     int bounce_vpls = 128;  // of each further one
+    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
     Visibility visibility = Visibility::ism;
     Splat splat = Splat::disks;
     bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper

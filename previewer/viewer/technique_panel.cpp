@@ -88,6 +88,8 @@ void technique_section(ViewState& state, PanelResult& result) {
     if (settings.technique != Technique::direct) {
         changed |= choose_size("RSM size", std::array{0, 64, 128, 256, 512, 1024, 2048}, settings.rsm_size);
     }
+    changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
+                           settings.world_vpls, "not occluded");
     changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
     int scale = state.render_divisor == 1 ? 0 : state.render_divisor == 2 ? 1 : 2;
     if (choose("render scale", std::array{"1", "1/2", "1/4"}, scale)) {

@@ -100,8 +100,9 @@ struct IsmUniforms {
     ivec4 atlas;            // map size (texels), maps a row, maps, points a map
     ivec4 points;           // points in the sequence, place of its first one, reflective maps: size of
                             // the lights' shadow maps, -
-    vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii;
-                            // constant bias; bias by slope, in texel widths
+    vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii
+                            // (reflective maps: area of a point where they are dense, or 0); constant bias; bias by
+                            // slope, in texel widths
     ivec4 gather;           // interleave n, VPLs a subset, columns of a subset's cells, -
 };
 

@@ -352,10 +352,51 @@ TEST_F(FramePlanTest, TheWorldLightsTheShadedPictureAlone) {
     scene_.world.color = glm::vec3(0.5F);
     EXPECT_TRUE(plan().world_light);
     EXPECT_EQ(reason(plan(), "world light"), "");
-    EXPECT_THAT(plan().approximations, Contains(HasSubstr("world's light")));
     settings_.show = Show::indirect;
     EXPECT_FALSE(plan().world_light);
     EXPECT_EQ(reason(plan(), "world light"), "") << "not shown is not the same as black";
+}
+
+TEST_F(FramePlanTest, LightsStandForTheWorldOnlyWhereItShines) {
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("black"));
+    scene_.world.color = glm::vec3(0.5F);
+    settings_.technique = Technique::ism;
+    settings_.bounces = 2;
+    EXPECT_TRUE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 2);
+    EXPECT_EQ(reason(plan(), "world lights"), "");
+    EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("world's light"))));
+    settings_.show = Show::indirect;
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("layer"));
+}
+
+TEST_F(FramePlanTest, WithoutLightsTheWorldIsNotOccluded) {
+    scene_.world.color = glm::vec3(0.5F);
+    settings_.world_vpls = 0;
+    EXPECT_TRUE(plan().world_light);
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("asked for"));
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("world's light")));
+}
+
+TEST_F(FramePlanTest, TheWorldBouncesByVirtualPointLightsAlone) {
+    scene_.world.color = glm::vec3(0.5F);
+    for (const Technique technique : {Technique::direct, Technique::rsm}) {
+        settings_.technique = technique;
+        EXPECT_TRUE(plan().world_occluded);
+        EXPECT_EQ(plan().world_bounces, 0);
+        EXPECT_TRUE(plan().glossy) << "what reflects the world directly has both lobes";
+    }
+    settings_.technique = Technique::ism;
+    EXPECT_TRUE(plan().occluded) << "maps of its bounces";
+    settings_.visibility = Visibility::none;
+    EXPECT_FALSE(plan().occluded);
+    EXPECT_TRUE(plan().world_occluded) << "its own are another setting";
 }
 
 TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {

@@ -46,6 +46,7 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--vpls", 1, 16384, [](Settings& s, int v) { s.vpls = v; });
     expect_range("--bounces", 1, 4, [](Settings& s, int v) { s.bounces = v; });
     expect_range("--bounce-vpls", 1, 16384, [](Settings& s, int v) { s.bounce_vpls = v; });
+    expect_range("--world-vpls", 0, 16384, [](Settings& s, int v) { s.world_vpls = v; });
     expect_range("--points", 0, 65536, [](Settings& s, int v) { s.ism_points = v; });
     expect_range("--pull-push-levels", 1, 3, [](Settings& s, int v) { s.pull_push_levels = v; });
     expect_range("--rsm-samples", 1, 32768, [](Settings& s, int v) { s.rsm_samples = v; });
@@ -115,6 +116,10 @@ TEST(LimitsRefusal, AnAtlasThatTheDriverCannotHoldNamesWhatToLower) {
     EXPECT_THAT(limits_refusal(settings, {.texture_size = 8192}), HasSubstr("lower --bounce-vpls to 1024"));
     settings.bounces = 1;
     EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "") << "no further bounce, no further maps";
+    settings = {.technique = Technique::direct, .world_vpls = 4096, .ism_size = 256};
+    EXPECT_THAT(limits_refusal(settings, {.texture_size = 8192}), HasSubstr("lower --world-vpls to 1024"));
+    settings.world_vpls = 0;
+    EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "");
 }
 
 TEST(LimitsRefusal, MapsOfLights) {
