@@ -10,6 +10,7 @@ Settings preset_settings(Preset preset) {
             break;
         case Preset::rsm2005:
             out.technique = Technique::rsm;
+            out.direct_shadows = DirectShadows::hard;
             break;
         case Preset::ism2008:
             // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with
