@@ -249,6 +249,20 @@ void RenderOptions::add_to(CLI::App& command) {
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
+    group.one_of(
+        "--direct-shadows", direct_shadows, setting_names<DirectShadows>(),
+        "Shadows of lights with a size: hard, from the light's centre; vpl: soft, from many places on "
+        "it, with a shadow map each",
+        name_of(Settings{}.direct_shadows));
+    group.number("--shadow-samples", shadow_samples,
+                 fmt::format("Soft shadows: places on a light, {} to {}, a power of two",
+                             k_least_shadow_samples, k_most_shadow_samples),
+                 std::to_string(Settings{}.shadow_samples));
+    group.number(
+        "--soft-shadow-size", soft_shadow_size,
+        "Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a cube's "
+        "faces",
+        std::to_string(Settings{}.soft_shadow_size));
     command
         .add_option("--budget-ms", budget_ms,
                     "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")
@@ -303,6 +317,9 @@ Settings RenderOptions::settings_without_scene() const {
     out.antialias = out.antialias && out.samples == 1;
     set(antialias, out.antialias);
     set(shadow_size, out.shadow_size);
+    set(direct_shadows, setting_names<DirectShadows>(), out.direct_shadows);
+    set(shadow_samples, out.shadow_samples);
+    set(soft_shadow_size, out.soft_shadow_size);
     set(show, setting_names<Show>(), out.show);
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);

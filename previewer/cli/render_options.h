@@ -61,6 +61,9 @@ struct RenderOptions {
     std::optional<bool> antialias;
     std::optional<int> samples_a_pixel;  // of a still
     std::optional<int> shadow_size;
+    std::optional<std::string> direct_shadows;
+    std::optional<int> shadow_samples;
+    std::optional<int> soft_shadow_size;
     std::optional<std::string> show;
     std::optional<int> light;
     std::optional<int> vpl;

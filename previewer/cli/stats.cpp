@@ -82,6 +82,11 @@ ordered_json settings_json(const Settings& s) {
         {"antialias", s.antialias},
         {"samples", s.samples},
         {"world_vpls", s.world_vpls}};
+    out["direct_shadows"] = name_of(s.direct_shadows);
+    if (s.direct_shadows == DirectShadows::vpl) {
+        out["shadow_samples"] = s.shadow_samples;
+        out["soft_shadow_size"] = s.soft_shadow_size;
+    }
     if (s.technique != Technique::direct) {
         out["rsm_size"] = s.used_rsm_size();
     }

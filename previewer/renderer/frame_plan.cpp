@@ -5,8 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "renderer/penumbra.h"
+
 namespace bounce {
 namespace {
+
+// The picture's filter blurs a hard shadow's outline by more than this.
+constexpr double k_least_penumbra_pixels = 0.5;
 
 size_t at(int index) {
     return static_cast<size_t>(index);
@@ -59,7 +64,29 @@ void for_each_material(const scene::Scene& scene, const scene::Pose& pose, Visit
     }
 }
 
-void plan_lights(const scene::Pose& pose, FramePlan& plan) {
+// Whether a light that casts shadows has a penumbra to be drawn.
+bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& light,
+                     const Settings& settings, const Sight* sight, FramePlan& plan) {
+    const auto leave_out = [&](const char* reason) {
+        plan.left_out.push_back({"soft shadow: " + light.name, reason});
+        return false;
+    };
+    if (!(light_extent(instance, light) > 0.0)) {
+        return leave_out("the light has no size");
+    }
+    if (sight != nullptr &&
+        widest_penumbra_m(instance, light, sight->bounds) < k_least_penumbra_pixels * sight->finest_pixel_m) {
+        return leave_out("its penumbra is narrower than half a pixel everywhere");
+    }
+    if (settings.direct_shadows == DirectShadows::hard) {
+        plan.approximations.push_back(
+            fmt::format("light {}: drawn with a hard shadow in spite of its size, as asked for", light.name));
+        return leave_out("hard shadows were asked for");
+    }
+    return true;
+}
+
+void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight* sight, FramePlan& plan) {
     for (size_t i = 0; i < pose.light_instances.size(); ++i) {
         const scene::Light& light = pose.lights[at(pose.light_instances[i].light)];
         if (!sends_light(light)) {
@@ -71,13 +98,11 @@ void plan_lights(const scene::Pose& pose, FramePlan& plan) {
         if (plan.direct && !light.cast_shadow) {
             plan.left_out.push_back({"shadow map: " + light.name, "the light casts no shadow"});
         }
-        const bool soft = light.radius_m > 0.0F || light.angle_rad > 0.0F;
-        if (light.type == scene::LightType::area) {
+        plan.soft.push_back(plan.shadows.back() &&
+                            throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
+        if (light.type == scene::LightType::area && plan.indirect) {
             plan.approximations.push_back(
-                fmt::format("area light {}: its shadow and bounce are taken from its centre", light.name));
-        } else if (soft && plan.shadows.back()) {
-            plan.approximations.push_back(
-                fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
+                fmt::format("area light {}: its bounce is taken from its centre", light.name));
         }
     }
     if (plan.lights.empty()) {
@@ -150,7 +175,8 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
 
 }  // namespace
 
-FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings) {
+FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
+                     const Sight* sight) {
     FramePlan plan;
     plan.direct =
         settings.show == Show::shaded || settings.show == Show::direct || settings.show == Show::vpls;
@@ -169,7 +195,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         plan.left_out.push_back({"light", "the layer shows motion alone"});
         return plan;
     }
-    plan_lights(pose, plan);
+    plan_lights(pose, settings, sight, plan);
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);

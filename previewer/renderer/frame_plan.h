@@ -36,12 +36,20 @@ struct FramePlan {
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`
+    std::vector<bool> soft;                   // the same: those whose shadow has a penumbra
     std::vector<LeftOut> left_out;            // and why
     std::vector<std::string> notes;           // why the picture lacks what was asked for
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
 };
 
+// What decides whether a penumbra can be seen.
+struct Sight {
+    scene::Bounds bounds;         // of the pose, world space
+    double finest_pixel_m = 0.0;  // penumbra.h
+};
+
+// sight: where it is null, every penumbra counts as seen.
 [[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose,
-                                   const Settings& settings);
+                                   const Settings& settings, const Sight* sight = nullptr);
 
 }  // namespace bounce

@@ -16,6 +16,7 @@
 #include "passes/rsm.h"
 #include "passes/rsm_gather.h"
 #include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 #include "passes/vpl_gather.h"
 #include "passes/vpl_sampling.h"
 #include "passes/vpl_view.h"
@@ -258,9 +259,11 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
+            const bool soft = !light.soft.empty();
             const TextureHandle shadow =
-                in.plan.shadows[i] ? add_shadow_map(graph, context, light) : TextureHandle{};
-            direct = add_direct_light(graph, context, gbuffer, light, shadow, direct);
+                in.plan.shadows[i] && !soft ? add_shadow_map(graph, context, light) : TextureHandle{};
+            const SoftShadow penumbra = soft ? add_soft_shadow(graph, context, gbuffer, light) : SoftShadow{};
+            direct = add_direct_light(graph, context, gbuffer, light, shadow, penumbra, direct);
         }
         if (in.plan.indirect) {
             gather.sources.push_back(

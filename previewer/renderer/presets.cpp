@@ -11,6 +11,7 @@ Settings preset_settings(Preset preset) {
         case Preset::rsm2005:
             out.technique = Technique::rsm;
             out.world_vpls = 0;  // the paper has no light from all around
+            out.direct_shadows = DirectShadows::hard;
             break;
         case Preset::ism2008:
             // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with

@@ -14,7 +14,9 @@
 #include "passes/deform.h"
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
+#include "renderer/penumbra.h"
 #include "renderer/pipeline.h"
+#include "renderer/soft_setup.h"
 #include "renderer/world_lights.h"
 
 namespace bounce {
@@ -111,6 +113,35 @@ void require_fitting_sums(const Settings& settings, const FramePlan& plan, int p
             "bounces from: lower {} to {}, or give --bounces 1",
             lights, points_a_map, option, most / (int64_t{sizeof(float)} * points_a_map)));
     }
+}
+
+// What the camera sees of each draw.
+std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrices& camera) {
+    std::vector<gpu::DrawBox> boxes;
+    for (const gpu::DrawBatch& batch : scene.batches()) {
+        for (uint32_t draw = batch.first_draw; draw < batch.first_draw + batch.draw_count; ++draw) {
+            boxes.push_back(scene.draw_box(draw));
+        }
+    }
+    return seen_regions(boxes, gpu::draw_box(scene.bounds(), scene.space()), camera.clip_from_render,
+                        camera.render_from_clip);
+}
+
+template <typename MakeView>
+passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, MakeView&& make_view) {
+    passes::SoftMaps out;
+    out.map_kind = setup.map_kind;
+    out.size = setup.size;
+    out.layers = setup.layers;
+    for (const SoftFace& face : setup.faces) {
+        out.faces.push_back({face.layer, make_view(face.view.clip_from_render, face.view.mirrored)});
+    }
+    for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
+        gpu::ShadowViews chunk{};
+        std::copy_n(&setup.views[first], SHADOW_VIEW_CHUNK, chunk.view);
+        out.chunks.push_back(uniforms.add(chunk));
+    }
+    return out;
 }
 
 }  // namespace
@@ -244,8 +275,6 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing, const Moment* before) {
     FrameReport report;
-    FramePlan plan = plan_frame(scene_, pose, settings);
-    report.approximations = plan.approximations;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
         pool_.clear();
@@ -255,7 +284,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     gl::PassTimer timer(timing);
     const Moment still{pose, view};
     const Moment& previous = before != nullptr ? *before : still;
-    if (plan.motion) {
+    if (settings.show == Show::motion) {
         if (!previous_) {
             previous_ = std::make_unique<PreviousFrameSource>();
         }
@@ -264,10 +293,15 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     gpu_scene_.set_pose(pose);
     report.triangles = gpu_scene_.triangles_drawn();
 
-    // Everything the passes read from uniform blocks, uploaded at once.
-    uniforms_.clear();
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
                                                   settings.width, settings.height, gpu_scene_.space());
+    const Sight sight{gpu_scene_.bounds(),
+                      finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
+    FramePlan plan = plan_frame(scene_, pose, settings, &sight);
+    report.approximations = plan.approximations;
+
+    // Everything the passes read from uniform blocks, uploaded at once.
+    uniforms_.clear();
     const auto make_view = [&](const glm::mat4& clip_from_render, bool mirrored) {
         return passes::View{uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)}),
                             clip_from_render, mirrored};
@@ -275,10 +309,13 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     const bool mirrored = glm::determinant(glm::dmat3(view.world_from_camera)) < 0.0;
     const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), mirrored);
 
+    const bool any_soft = std::find(plan.soft.begin(), plan.soft.end(), true) != plan.soft.end();
+    const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;
-    for (const int index : plan.lights) {
-        const scene::LightInstance& instance = pose.light_instances[static_cast<size_t>(index)];
+    for (size_t i = 0; i < plan.lights.size(); ++i) {
+        const auto index = static_cast<size_t>(plan.lights[i]);
+        const scene::LightInstance& instance = pose.light_instances[index];
         const LightSetup setup =
             set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
                          gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
@@ -293,6 +330,13 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
+        if (plan.soft[i]) {
+            pass.soft = soft_maps(
+                set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
+                                   gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
+                                   settings.shadow_samples, settings.soft_shadow_size),
+                uniforms_, make_view);
+        }
         lights.push_back(pass);
         fluxes.push_back(setup.flux_w);
     }

@@ -19,6 +19,12 @@ enum class Visibility {
     shadow_maps,  // maps of the same size drawn from triangles: the reference, slow
 };
 
+// How lights with a size throw shadows.
+enum class DirectShadows {
+    hard,  // from their centres
+    vpl,   // from many places on them, a map each
+};
+
 using Splat = passes::Splat;
 using PullPush = passes::PullPush;
 
@@ -108,6 +114,9 @@ struct Settings {
     // antialias is off. A frame of several smooths the outlines of shadows over its part of a pixel alone.
     int samples = 1;
     int shadow_size = 2048;  // a cube's faces have half of it
+    DirectShadows direct_shadows = DirectShadows::vpl;
+    int shadow_samples = 64;     // places on a light, a power of two
+    int soft_shadow_size = 512;  // of the map at each; a cube's faces have half of it
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
