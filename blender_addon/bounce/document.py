@@ -5,7 +5,7 @@ import bpy
 
 from io_scene_gltf2.io.exp.gltf2_io_binary_data import BinaryData
 
-from . import environment, lights, read_lights, read_scene, read_world
+from . import environment_file, lights, read_lights, read_scene, read_world
 from .errors import ExportError
 from .pointers import Pointer
 
@@ -96,7 +96,7 @@ def carry_world_image(gltf_scene, export):
     buffer, and the number of its view comes into this dictionary."""
     image = read_world.image_of(export.scene.world) if export.scene.world is not None else None
     if image is not None:
-        data, mime_type = environment.encoded(image)
+        data, mime_type = environment_file.encoded(image)
         export.world_image = {"name": image.name, "mimeType": mime_type, "bufferView": BinaryData(data)}
         gltf_scene.extensions = {**(gltf_scene.extensions or {}), _CARRIER: export.world_image}
 

@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The equirectangular image of a world: which node gives it, how it is turned, and the bytes that travel."""
+"""The equirectangular image of a world: which node gives it, how it is turned, and its values. The bytes that travel are
+environment_file's."""
 
-import tempfile
-from pathlib import Path
-
-import bpy
-import mathutils
 import numpy as np
 
 from . import sockets
@@ -13,9 +9,8 @@ from . import sockets
 # What Cycles shows where an image has no file.
 MISSING = [1.0, 0.0, 1.0]
 
-_EXR, _HDR = b"\x76\x2f\x31\x01", b"#?"
 # Colour spaces whose values are what Cycles calculates with.
-_AS_STORED = {"Linear", "Linear Rec.709", "Non-Color", "Raw"}
+AS_STORED = {"Linear", "Linear Rec.709", "Non-Color", "Raw"}
 
 
 def has_pixels(image):
@@ -54,10 +49,20 @@ def rotation(node):
     """The turn of the image about the scene, a quaternion x, y, z, w in glTF's axes."""
     mapping = _mapping(node)[0]
     angles = sockets.constant(mapping.inputs["Rotation"]) if mapping is not None else None
-    turn = mathutils.Euler(angles or (0.0, 0.0, 0.0), "XYZ").to_quaternion()
+    turn = np.array([0.0, 0.0, 0.0, 1.0])
+    for axis, angle in enumerate(angles or ()):  # Euler XYZ: about X first
+        about = np.zeros(4)
+        about[axis], about[3] = np.sin(angle / 2), np.cos(angle / 2)
+        turn = _product(about, turn)
     if mapping is not None and mapping.vector_type != "TEXTURE":
-        turn.invert()  # these turn the direction that is looked up; that node's other type undoes it
-    return [turn.x, turn.z, -turn.y, turn.w]
+        turn[:3] = -turn[:3]  # these turn the direction that is looked up; that node's other type undoes it
+    x, y, z, w = turn.tolist()
+    return [x, z, -y, w]
+
+
+def _product(a, b):
+    vector = a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])
+    return np.append(vector, a[3] * b[3] - a[:3] @ b[:3])
 
 
 def issues(node):
@@ -82,7 +87,7 @@ def issues(node):
         yield from _mapping_issues(name, mapping)
     if node.interpolation != "Linear":
         yield f"{name} with interpolation {node.interpolation}; exported as Linear"
-    if not image.is_float and image.colorspace_settings.name not in {*_AS_STORED, "sRGB"}:
+    if not image.is_float and image.colorspace_settings.name not in {*AS_STORED, "sRGB"}:
         yield f"{name}: colour space {image.colorspace_settings.name}; exported as sRGB"
 
 
@@ -105,43 +110,6 @@ def pixels(image):
     values = values.reshape(height, width, -1)
     values = values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
     # Blender converts images of floats as it loads them, and keeps bytes as they are.
-    if not image.is_float and image.colorspace_settings.name not in _AS_STORED:
+    if not image.is_float and image.colorspace_settings.name not in AS_STORED:
         values = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
     return values
-
-
-def encoded(image):
-    """(bytes, MIME type) of an OpenEXR or Radiance HDR image with scene-linear values: the image's own file where it is
-    such a one."""
-    if image.source == "FILE" and not image.is_dirty and image.colorspace_settings.name in _AS_STORED:
-        data = _own_file(image)
-        if data.startswith(_EXR):
-            return data, "image/x-exr"
-        if data.startswith(_HDR):
-            return data, "image/vnd.radiance"
-    return _as_exr(image), "image/x-exr"
-
-
-def _own_file(image):
-    if image.packed_file is not None:
-        return bytes(image.packed_file.data)
-    path = Path(bpy.path.abspath(image.filepath, library=image.library))
-    return path.read_bytes() if path.is_file() else b""
-
-
-def _as_exr(image):
-    width, height = image.size
-    values = np.ones((height, width, 4), dtype=np.float32)
-    values[:, :, :3] = pixels(image)
-    copy = bpy.data.images.new("Bounce world", width, height, float_buffer=True)
-    try:
-        # Otherwise saving would encode the values once more.
-        copy.colorspace_settings.name = "Non-Color"
-        copy.pixels.foreach_set(values.ravel())
-        with tempfile.TemporaryDirectory() as folder:
-            copy.filepath_raw = str(Path(folder) / "world.exr")
-            copy.file_format = "OPEN_EXR"
-            copy.save()
-            return Path(copy.filepath_raw).read_bytes()
-    finally:
-        bpy.data.images.remove(copy)
