@@ -21,6 +21,11 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             builder.read(inputs.bounced);
             defines["BOUNCED"] = "1";
         }
+        if (inputs.image.maps != nullptr) defines["ENVIRONMENT"] = "1";
+        if (inputs.image.maps != nullptr && inputs.lobes.valid()) {
+            builder.read(inputs.lobes);
+            defines["ENVIRONMENT_GLOSSY"] = "1";
+        }
         if (inputs.world_light) defines["WORLD"] = "1";
         const bool emission = inputs.emission && inputs.gbuffer.emission.valid();
         if (emission) {
@@ -38,6 +43,13 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             if (inputs.direct.valid()) resources.texture(inputs.direct).bind(TEX_DIRECT);
             if (inputs.irradiance.valid()) resources.texture(inputs.irradiance).bind(TEX_INDIRECT);
             if (inputs.bounced.valid()) resources.texture(inputs.bounced).bind_image(IMG_IN, GL_READ_ONLY);
+            if (inputs.image.maps != nullptr) {
+                context.uniforms.bind(UBO_WORLD, inputs.image.uniforms);
+                inputs.image.maps->image.bind(TEX_ENVIRONMENT);
+                inputs.image.maps->glossy.bind(TEX_ENVIRONMENT_GLOSSY);
+                inputs.image.maps->brdf.bind(TEX_ENVIRONMENT_BRDF);
+            }
+            if (inputs.lobes.valid()) resources.texture(inputs.lobes).bind_image(IMG_LOBES, GL_READ_ONLY);
             if (emission) resources.texture(inputs.gbuffer.emission).bind(TEX_GBUFFER2);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

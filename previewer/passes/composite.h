@@ -10,6 +10,8 @@ struct CompositeInputs {
     TextureHandle direct;      // invalid: none
     TextureHandle irradiance;  // invalid: none
     TextureHandle bounced;     // shaders/lib/bounced.glsl; invalid: none
+    TextureHandle lobes;       // GatheredLight::lobes, blurred; invalid: the world's image is not reflected
+    WorldImage image;          // without maps: the world has one colour
     bool world_light = false;
     bool emission = false;
 };

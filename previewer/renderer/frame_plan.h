@@ -32,6 +32,7 @@ struct FramePlan {
     bool emission = false;
     bool world_light = false;                 // the world is not black
     bool world_occluded = false;              // and stands as virtual point lights
+    bool environment = false;                 // and drawn with its image
     int world_bounces = 0;                    // of its light
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light

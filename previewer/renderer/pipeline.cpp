@@ -142,8 +142,14 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     return lit;
 }
 
+// What the gather makes, filtered.
+struct FilteredLight {
+    TextureHandle bounced;
+    TextureHandle lobes;
+};
+
 // Light of all bounces at once.
-TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                                 const std::vector<passes::VplSource>& sources, const BouncedLights& lit,
                                 const std::vector<passes::VplSet>& world) {
     using namespace passes;
@@ -170,9 +176,13 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
     }
     const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
-        return bounced;
+        return {bounced, light.lobes};
     }
-    return add_bounced_blur(graph, context, gbuffer, bounced, interleave, in.plan.narrow_lobes);
+    const auto blur = [&](TextureHandle of) {
+        return of.valid() ? add_bounced_blur(graph, context, gbuffer, of, interleave, in.plan.narrow_lobes)
+                          : of;
+    };
+    return {blur(bounced), blur(light.lobes)};
 }
 
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
@@ -279,6 +289,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
 
     TextureHandle irradiance;
     TextureHandle bounced;
+    TextureHandle lobes;
     BouncedLights lit;
     const ScenePoints scene =
         in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
@@ -297,7 +308,9 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            bounced = add_bounced_light(graph, in, gbuffer, sources, lit, world);
+            const FilteredLight light = add_bounced_light(graph, in, gbuffer, sources, lit, world);
+            bounced = light.bounced;
+            lobes = light.lobes;
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
             const TextureHandle removed = add_removed(graph, in, gbuffer, lit);
@@ -328,7 +341,9 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
 
     if (!lights_bounce && !world.empty()) {
-        bounced = add_bounced_light(graph, in, gbuffer, {}, lit, world);
+        const FilteredLight light = add_bounced_light(graph, in, gbuffer, {}, lit, world);
+        bounced = light.bounced;
+        lobes = light.lobes;
     }
     const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
     TextureHandle picture = add_composite(graph, context,
@@ -336,6 +351,8 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
                                            .direct = direct,
                                            .irradiance = irradiance,
                                            .bounced = bounced,
+                                           .lobes = lobes,
+                                           .image = in.image,
                                            .world_light = in.plan.world_light && !in.plan.world_occluded,
                                            .emission = in.plan.emission && whole},
                                           in.plan.antialias ? TextureHandle{} : in.target);

@@ -32,6 +32,7 @@ struct PipelineInputs {
     std::vector<Bounce> bounces;                         // plan.bounces of them
     Bounce world;                                        // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
+    passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
     int triangles_inside = 0;           // large triangles in maps of lights within the scene
     passes::PreviousFrame previous;     // where the plan shows motion

@@ -18,6 +18,7 @@
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
 #include "renderer/camera_view.h"
+#include "renderer/environment_world.h"
 #include "renderer/frame_plan.h"
 #include "renderer/pipeline.h"
 #include "renderer/previous_frame.h"
@@ -80,6 +81,10 @@ class Renderer {
         std::vector<Bounce> world_bounces;
         int triangles = 0;  // large ones in the maps of lights within the scene
     };
+    // own_lights: as many of the pose's light instances, the first, are the scene's; the others are suns of
+    // the world's image.
+    FrameReport render_lit(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
+                           gl::TimingMode timing, const Moment* before, size_t own_lights);
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
     LitBounces prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan,
@@ -97,6 +102,7 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
+    std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
 };
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.

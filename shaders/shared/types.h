@@ -37,6 +37,13 @@ struct FrameUniforms {
     vec4 composite;         // film exposure, direct on, smoothing of shadows in pixels, scale of bounced light in half floats
 };
 
+// The world's image (lib/environment.glsl).
+struct WorldUniforms {
+    vec4 environment_from_render[3];  // rows of the rotation; w of the first: strength
+    vec4 detail;            // radians that a texel of the image spans, levels of the image less one, the same of the
+                            // prefiltered image, -
+};
+
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
