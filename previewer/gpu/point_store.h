@@ -52,10 +52,13 @@ class PointStore {
     // Materials and surfaces of the points, for shaders/lib/irsm.glsl.
     void bind_materials() const;
     void bind_for_triangle_update() const;
-
-  private:
+    // GpuPointSurface of each of parts().surfaces at this pose.
+    void bind_surfaces() const { surface_buffer_.bind_storage(SSBO_POINT_SURFACES); }
+    // A triangle's corners in the stream of positions, and its surface.
     [[nodiscard]] glm::uvec4 place(uint32_t surface, const glm::uvec3& triangle,
                                    const VertexStore& vertices) const;
+
+  private:
     void upload_materials();
     void upload(const VertexStore& vertices);
     void find_changes(const std::vector<GpuPointSurface>& now);

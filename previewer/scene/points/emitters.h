@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Places on surfaces that emit, spread in proportion to what they send: light sources that stand for the
+// whole surface.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/points/point_set.h"
+#include "scene/points/texture_reader.h"
+
+namespace bounce::scene {
+
+// A place on an emissive surface and the part of it that it stands for.
+struct EmitterSample {
+    PointSample point;        // its share is that of its triangle's area, and may exceed 1
+    bool back = false;        // sends to where the triangle turns clockwise
+    glm::vec3 texture{1.0F};  // what the emission texture says there, linear; 1 without one
+};
+
+// The emissive triangles of a scene with what their textures say; radiances, which may be animated, come
+// later.
+class Emitters {
+  public:
+    // scene and parts must outlive it. parts: of the scene, whose areas count. Surfaces whose material never
+    // emits are left out: its factor is 0 and no animation moves it, or its texture is black.
+    Emitters(const Scene& scene, const SurfaceParts& parts);
+
+    [[nodiscard]] bool empty() const { return triangles_.empty(); }
+
+    // `count` samples in proportion to emitted power (luminance of the radiance times area), stratified over
+    // all surfaces; none where nothing emits. Both sides of a surface send, as in Cycles; of a closed one
+    // that is not a cut-out only the outer side is sampled, as its inside sees nothing else. radiance: of
+    // each of the scene's materials at this pose, without its texture, W/(m^2 sr); shown: for each of the
+    // parts' surfaces. A radiance times a factor for all materials gives the same samples.
+    [[nodiscard]] std::vector<EmitterSample> sample(std::span<const glm::vec3> radiance,
+                                                    const std::vector<bool>& shown, size_t count) const;
+
+  private:
+    struct Triangle {
+        size_t part;
+        uint32_t index;     // into the part's table
+        glm::vec3 texture;  // mean over the triangle
+        bool both_sides;
+    };
+    [[nodiscard]] double area_m2(const Triangle& triangle) const;
+
+    const Scene& scene_;
+    const SurfaceParts& parts_;
+    mutable TextureReader textures_;  // keeps the pyramids of what was read
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace bounce::scene
