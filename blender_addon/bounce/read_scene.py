@@ -16,10 +16,11 @@ def frames(scene):
 
 def render(scene):
     settings = scene.render
-    scale = settings.resolution_percentage / 100.0
+    # Whole numbers, as in Blender: 300 * 0.41 is less than 123 in floats.
+    percentage = settings.resolution_percentage
     return {
-        "width": max(1, int(settings.resolution_x * scale)),
-        "height": max(1, int(settings.resolution_y * scale)),
+        "width": max(1, settings.resolution_x * percentage // 100),
+        "height": max(1, settings.resolution_y * percentage // 100),
         "pixel_aspect_x": settings.pixel_aspect_x,
         "pixel_aspect_y": settings.pixel_aspect_y,
         # Absent only where Cycles is not enabled, which then renders nothing to compare with.

@@ -91,7 +91,8 @@ class _Recorder:
 
     def _record_object(self, key, evaluated, original):
         self._matrices.setdefault(key, []).append(np.array(evaluated.matrix_world, dtype=np.float64))
-        self._visible.setdefault(key, []).append(not evaluated.hide_render)
+        # Blender renders through a camera that renders hide.
+        self._visible.setdefault(key, []).append(original.type == "CAMERA" or not evaluated.hide_render)
         data_key = original.data.as_pointer() if original.data is not None else None
         if original.type == "ARMATURE":
             for bone in evaluated.pose.bones:

@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
     Run run_command;
     add_render(app, run_command);
     add_compare(app, run_command);
+    add_convert(app, run_command);
     add_view(app, run_command);
     add_info(app, run_command);
     add_evaluate(app, run_command);

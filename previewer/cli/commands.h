@@ -16,6 +16,7 @@ using Run = std::function<ExitCode()>;
 
 void add_render(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
+void add_convert(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_evaluate(CLI::App& app, Run& run);

@@ -18,8 +18,8 @@ void FrameWriter::write(const std::filesystem::path& path, const Image& image,
                     settings_.show == Show::motion ? ExrValues::full : ExrValues::half);
     } else if (shows_light(settings_.show)) {
         write_image(path,
-                    to_display(image, {view.display_device, view.view_transform, view.look, view.exposure,
-                                       view.gamma}),
+                    to_display(image, view_.over({view.display_device, view.view_transform, view.look,
+                                                  view.exposure, view.gamma})),
                     attributes);
     } else {
         write_image(path, to_display(image, {}), attributes);

@@ -80,6 +80,15 @@ std::string technique_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
+    const char* option = first_given({{"--shadow-samples", o.shadow_samples.has_value()},
+                                      {"--soft-shadow-size", o.soft_shadow_size.has_value()}});
+    if (option != nullptr && s.direct_shadows == DirectShadows::hard) {
+        return fmt::format("{} has no effect with hard shadows; give --direct-shadows vpl", option);
+    }
+    return {};
+}
+
 std::string map_conflict(const RenderOptions& o, const Settings& s) {
     const char* splats = splat_option(o);
     const char* maps = o.ism_size ? "--ism-size" : splats;
@@ -133,10 +142,27 @@ std::string layer_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+// Options beside several samples a pixel.
+std::string samples_conflict(const RenderOptions& o, const Settings& s) {
+    if (s.samples == 1) {
+        return {};
+    }
+    if (o.antialias && *o.antialias) {
+        return "--antialias on would smooth outlines twice: --samples does so by the same filter";
+    }
+    if (!shows_light(s.show)) {
+        return fmt::format(
+            "--samples takes means of light; --show {} shows data, of which a mean says nothing",
+            name_of(s.show));
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    for (std::string conflict : {technique_conflict(o, s), layer_conflict(o, s)}) {
+    for (std::string conflict :
+         {technique_conflict(o, s), shadow_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

@@ -12,13 +12,17 @@
 #include "cli/scene_source.h"
 #include "cli/stats.h"
 #include "cli/tuned_options.h"
+#include "cli/view_options.h"
 #include "core/atomic_file.h"
 #include "core/interrupt.h"
 #include "core/log.h"
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "gl/context.h"
+#include "image/image_io.h"
 #include "renderer/renderer.h"
+#include "renderer/sampled_picture.h"
+#include "renderer/setting_names.h"
 #include "scene/pose.h"
 
 namespace bounce::cli {
@@ -34,6 +38,7 @@ struct Arguments {
     bool removed = false;
     SceneSourceOptions source;
     RenderOptions render;
+    ViewOptions view;
 };
 
 std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& scene) {
@@ -54,18 +59,40 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
     return frames;
 }
 
+// Refuses names of the view that are not there, and options of it that no file would show.
+void check_view(const Arguments& arguments, const scene::ViewSettings& view, const Settings& settings) {
+    if (!arguments.view.any()) {
+        return;
+    }
+    if (std::all_of(arguments.outputs.begin(), arguments.outputs.end(),
+                    [](const std::string& output) { return is_scene_linear(output); })) {
+        throw usage_error(
+            "options of the view transform have no effect on scene-linear files: give an output such as "
+            ".png");
+    }
+    if (!shows_light(settings.show)) {
+        throw usage_error(fmt::format(
+            "options of the view transform have no effect with --show {}, which is data and no light",
+            name_of(settings.show)));
+    }
+    (void)arguments.view.checked_over(
+        {view.display_device, view.view_transform, view.look, view.exposure, view.gamma});
+}
+
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
 // before: the frame before, where the layer needs it. first_ms: of the very first rendering, where this is
-// the first frame.
+// the first frame. picture: the frame as it was drawn last.
 FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* before,
                          const Settings& settings, const Arguments& arguments, const gl::DeviceInfo& device,
-                         double* first_ms) {
+                         double* first_ms, PictureMean& picture) {
     const bool first = first_ms != nullptr;
     FrameStats stats;
     const auto once = [&](gl::TimingMode mode, const Settings& with) {
         glFinish();
         const Stopwatch rendering;
-        FrameReport report = renderer.render(now.pose, now.camera, with, mode, before);
+        picture = {};
+        FrameReport report = with.samples > 1 ? render_samples(renderer, now, with, mode, picture)
+                                              : renderer.render(now.pose, now.camera, with, mode, before);
         glFinish();
         return std::pair(std::move(report), rendering.ms());
     };
@@ -129,6 +156,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         throw usage_error(
             "--measure-removed needs --technique ism: only kernels of virtual point lights are bounded");
     }
+    check_view(arguments, scene.view, settings);
     const int animation = arguments.render.animation_index(scene);
     const std::vector<int> frames = choose_frames(arguments, scene);
     for (const std::string& output : arguments.outputs) {
@@ -148,7 +176,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     Renderer renderer(scene);
     glFinish();
     start.upload_ms = uploading.ms();
-    const FrameWriter writer(scene, settings);
+    const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
@@ -167,12 +195,17 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
             before.emplace(Moment{*pose_before, scene_camera(scene, *pose_before, arguments.render.camera,
                                                              settings.width, settings.height)});
         }
+        PictureMean picture;
         FrameStats measured =
             measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
-                          frame == frames.front() ? &start.first_frame_ms : nullptr);
+                          frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
         measured.frame = frame;
         measured.time_s = time_s;
-        const Image image = renderer.read_color();
+        const Image image = settings.samples > 1 ? picture.mean() : renderer.read_color();
+        if (const size_t faulty = picture.faulty_pixels(); faulty > 0) {
+            log::warning("frame {}: {} pixels are not finite, since one of their {} samples is not", frame,
+                         faulty, settings.samples);
+        }
         for (const std::string& output : arguments.outputs) {
             writer.write(frame_path(output, frame), image, pose.view, frame);
         }
@@ -222,6 +255,8 @@ void add_render(CLI::App& app, Run& run) {
         "With --stats: also how much of the indirect light bounding the lights' kernels takes away");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
+    arguments->render.add_still_to(*command);
+    arguments->view.add_to(*command);
     command->callback(
         [command, arguments, &run] { run = [command, arguments] { return render(*command, *arguments); }; });
 }

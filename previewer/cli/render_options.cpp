@@ -238,9 +238,31 @@ void RenderOptions::add_to(CLI::App& command) {
                  "others are as "
                  "in the papers on reflective and imperfect shadow maps",
                  "auto");
+    group.number(
+        "--world-vpls", world_vpls,
+        fmt::format(
+            "Lights at infinity that stand for the world's light, each with an imperfect shadow map, in any "
+            "technique, 0 to {}; 0: it reaches every surface as if nothing stood in its way, and does "
+            "not bounce",
+            k_most_vpls),
+        std::to_string(Settings{}.world_vpls));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
+    group.one_of(
+        "--direct-shadows", direct_shadows, setting_names<DirectShadows>(),
+        "Shadows of lights with a size: hard, from the light's centre; vpl: soft, from many places on "
+        "it, with a shadow map each",
+        name_of(Settings{}.direct_shadows));
+    group.number("--shadow-samples", shadow_samples,
+                 fmt::format("Soft shadows: places on a light, {} to {}, a power of two",
+                             k_least_shadow_samples, k_most_shadow_samples),
+                 std::to_string(Settings{}.shadow_samples));
+    group.number(
+        "--soft-shadow-size", soft_shadow_size,
+        "Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a cube's "
+        "faces",
+        std::to_string(Settings{}.soft_shadow_size));
     command
         .add_option("--budget-ms", budget_ms,
                     "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")
@@ -257,6 +279,17 @@ void RenderOptions::add_to(CLI::App& command) {
     add_layer_options(command, *this);
 }
 
+void RenderOptions::add_still_to(CLI::App& command) {
+    Group group(command, k_light_transport_group);
+    group.number(
+        "--samples", samples_a_pixel,
+        fmt::format(
+            "The mean of N frames, 1 to {}, that look at different places in and around each pixel, by "
+            "Cycles' pixel filter; N times as slow. More than 1 takes the place of --antialias",
+            k_most_samples),
+        std::to_string(Settings{}.samples));
+}
+
 Settings RenderOptions::settings_without_scene() const {
     Settings out = preset_settings(preset ? presets().at(*preset) : Preset::automatic);
     set(technique, setting_names<Technique>(), out.technique);
@@ -266,6 +299,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(vpls, out.vpls);
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
+    set(world_vpls, out.world_vpls);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(near_field, out.near_field);
@@ -279,8 +313,13 @@ Settings RenderOptions::settings_without_scene() const {
     set(pull_push_levels, out.pull_push_levels);
     set(pull_threshold, out.pull_threshold);
     set(push_threshold, out.push_threshold);
+    set(samples_a_pixel, out.samples);
+    out.antialias = out.antialias && out.samples == 1;
     set(antialias, out.antialias);
     set(shadow_size, out.shadow_size);
+    set(direct_shadows, setting_names<DirectShadows>(), out.direct_shadows);
+    set(shadow_samples, out.shadow_samples);
+    set(soft_shadow_size, out.soft_shadow_size);
     set(show, setting_names<Show>(), out.show);
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);

@@ -40,6 +40,7 @@ struct RenderOptions {
     std::optional<int> vpls;
     std::optional<int> bounces;
     std::optional<int> bounce_vpls;
+    std::optional<int> world_vpls;
     std::optional<int> interleave;
     std::optional<bool> near_field;
     std::optional<bool> glossy;
@@ -58,13 +59,19 @@ struct RenderOptions {
     std::optional<float> push_threshold;
 
     std::optional<bool> antialias;
+    std::optional<int> samples_a_pixel;  // of a still
     std::optional<int> shadow_size;
+    std::optional<std::string> direct_shadows;
+    std::optional<int> shadow_samples;
+    std::optional<int> soft_shadow_size;
     std::optional<std::string> show;
     std::optional<int> light;
     std::optional<int> vpl;
     std::optional<int> bounce;
 
     void add_to(CLI::App& command);
+    // What only pictures that are written have.
+    void add_still_to(CLI::App& command);
     // Refuses what is wrong whatever the scene, before it is read. Throws usage_error.
     void check() const;
     // The renderer's settings; the size is the scene's own where none was given. Throws usage_error, also for

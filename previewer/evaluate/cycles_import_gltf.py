@@ -7,11 +7,13 @@ are written into a copy of the file's document at each frame, and set from there
 the file has no camera or no light, Bounce's own ones are used: its renders and Blender's show the same.
 """
 
+import base64
 import copy
 import json
 import math
 import struct
 import sys
+import urllib.parse
 from pathlib import Path
 
 import bpy
@@ -22,6 +24,9 @@ FLOAT = 5126
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 LIGHT_TYPES = {"point": "POINT", "spot": "SPOT", "sun": "SUN", "area": "AREA"}
 NAME = "BOUNCE_scene"
+# Extensions that are taken care of here and not by Blender's importer, which refuses files that require one it lacks.
+OURS = [NAME, "KHR_animation_pointer", "KHR_node_visibility", "EXT_mesh_gpu_instancing"]
+LUMENS_A_WATT = 683
 
 
 def read_document(path):
@@ -41,9 +46,9 @@ def read_document(path):
         if uri is None:
             buffers.append(binary)
         elif uri.startswith("data:"):
-            buffers.append(None)  # embedded text; our exporter writes no animation that way
+            buffers.append(base64.b64decode(uri.split(",", 1)[1]))
         else:
-            buffers.append((Path(path).parent / uri).read_bytes())
+            buffers.append((Path(path).parent / urllib.parse.unquote(uri)).read_bytes())
     return document, buffers
 
 
@@ -52,9 +57,13 @@ class Channel:
 
     def __init__(self, document, buffers, sampler, pointer):
         self.path = [int(part) if part.isdigit() else part for part in pointer.strip("/").split("/")]
-        self.step = sampler.get("interpolation", "LINEAR") == "STEP"
+        self.interpolation = sampler.get("interpolation", "LINEAR")
         self.times = [row[0] for row in read_floats(document, buffers, sampler["input"])]
-        self.values = read_floats(document, buffers, sampler["output"])
+        rows = read_floats(document, buffers, sampler["output"])
+        spline = self.interpolation == "CUBICSPLINE"
+        # A key of a spline is three rows: the tangent into it, its value, the tangent out of it.
+        self.values = rows[1::3] if spline else rows
+        self.tangents_in, self.tangents_out = (rows[0::3], rows[2::3]) if spline else ([], [])
 
     def value(self, time):
         if time <= self.times[0]:
@@ -63,10 +72,16 @@ class Channel:
             return self.values[-1]
         after = next(i for i, key in enumerate(self.times) if key > time)
         before = after - 1
-        if self.step:
+        if self.interpolation == "STEP":
             return self.values[before]
-        t = (time - self.times[before]) / (self.times[after] - self.times[before])
-        return [a + (b - a) * t for a, b in zip(self.values[before], self.values[after])]
+        span = self.times[after] - self.times[before]
+        t = (time - self.times[before]) / span
+        if self.interpolation == "LINEAR":
+            return [a + (b - a) * t for a, b in zip(self.values[before], self.values[after])]
+        # Hermite's, by glTF 2.0, appendix C.
+        weights = (2 * t**3 - 3 * t**2 + 1, span * (t**3 - 2 * t**2 + t), 3 * t**2 - 2 * t**3, span * (t**3 - t**2))
+        return [sum(weight * part for weight, part in zip(weights, parts))
+                for parts in zip(self.values[before], self.tangents_out[before], self.values[after], self.tangents_in[after])]
 
     def write(self, document, time):
         target = document
@@ -79,11 +94,9 @@ class Channel:
 def read_floats(document, buffers, index):
     accessor = document["accessors"][index]
     if accessor["componentType"] != FLOAT or "sparse" in accessor or "bufferView" not in accessor:
-        raise ValueError("an animated value is not stored as plain floats")
+        raise ValueError("its values are not stored as plain floats")
     view = document["bufferViews"][accessor["bufferView"]]
     data = buffers[view["buffer"]]
-    if data is None:
-        raise ValueError("an animated value is stored as text in the file")
     count = COMPONENTS[accessor["type"]]
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     stride = view.get("byteStride", 4 * count)
@@ -98,6 +111,9 @@ def pointer_channels(document, buffers, note):
             pointer = target.get("extensions", {}).get("KHR_animation_pointer", {}).get("pointer")
             # The twins for other viewers say nothing new.
             if pointer is None or pointer.startswith("/extensions/KHR_lights_punctual"):
+                continue
+            if pointer.startswith("/nodes/") and pointer.rsplit("/", 1)[1] in ("translation", "rotation", "scale", "weights"):
+                note(f"{pointer} does not move in the reference: Blender's importer does not know motion by pointers")
                 continue
             try:
                 channels.append(Channel(document, buffers, animation["samplers"][channel["sampler"]], pointer))
@@ -152,6 +168,9 @@ class Imported:
         self.made = made
         self.lights = {}
         self.make_lights()
+        self.instances = {}
+        self.make_instances(buffers)
+        self.blinks = any("KHR_node_visibility" in node.get("extensions", {}) for node in document.get("nodes", []))
 
     def camera_of(self, index):
         if index not in self.made.cameras:
@@ -179,6 +198,49 @@ class Imported:
                 holder.rotation_euler.x = math.pi / 2  # the importer's axes: glTF's -Z is Blender's +Y
             self.lights[index] = holder
 
+    def make_instances(self, buffers):
+        """Copies below the node, which itself is not drawn then; the importer makes one object of all."""
+        for index, node in enumerate(self.document.get("nodes", [])):
+            wanted = node.get("extensions", {}).get("EXT_mesh_gpu_instancing")
+            found = self.made.nodes.get(index)
+            if wanted is None or found is None:
+                continue
+            try:
+                read = {name: read_floats(self.document, buffers, accessor) for name, accessor in wanted["attributes"].items()
+                        if name in ("TRANSLATION", "ROTATION", "SCALE")}
+            except ValueError as error:
+                self.note(f"{node.get('name', index)} is drawn once in the reference: {error}")
+                continue
+            self.instances[index] = []
+            for i in range(max((len(rows) for rows in read.values()), default=0)):
+                instance = found.copy()
+                self.scene.collection.objects.link(instance)
+                instance.parent = found
+                instance.matrix_parent_inverse.identity()
+                instance.matrix_local = instance_matrix(*(read[name][i] if name in read else plain for name, plain in (
+                    ("TRANSLATION", (0, 0, 0)), ("ROTATION", (0, 0, 0, 1)), ("SCALE", (1, 1, 1)))))
+                self.instances[index].append(instance)
+            found.hide_render = True
+
+    def shown_nodes(self, document):
+        """Whether each node that the scene has is shown: one that is hidden hides those below it."""
+        nodes = document.get("nodes", [])
+        shown = {}
+        waiting = [(root, True) for root in document["scenes"][document.get("scene", 0)].get("nodes", [])]
+        while waiting:
+            index, above = waiting.pop()
+            visible = nodes[index].get("extensions", {}).get("KHR_node_visibility", {}).get("visible", True)
+            shown[index] = above and visible
+            waiting += [(child, shown[index]) for child in nodes[index].get("children", [])]
+        return shown
+
+    def show_nodes(self, document):
+        for index, shown in self.shown_nodes(document).items():
+            drawn = self.instances.get(index, [self.made.nodes.get(index)])
+            for item in [*drawn, self.lights.get(index), self.made.lights.get(index)]:
+                if item is not None:
+                    item.hide_render = not shown
+
     def apply(self, frame):
         """Sets what the importer did not, at Bounce's frame; returns Blender's frame number."""
         time = (frame - self.frames["start"]) / self.frames["fps"]
@@ -189,14 +251,10 @@ class Imported:
             node = document["nodes"][index]
             set_light(holder.data, extension(document)["lights"][extension(node)["light"]])
         for index, node in enumerate(document.get("nodes", [])):
-            found = self.made.nodes.get(index)
-            if found is None:
-                continue
-            visibility = node.get("extensions", {}).get("KHR_node_visibility")
-            if visibility is not None:
-                hide(found, not visibility.get("visible", True))
             if index in self.made.cameras:
-                set_camera(self.made.cameras[index].data, extension(document["cameras"][node["camera"]]))
+                set_camera(self.made.cameras[index].data, document["cameras"][node["camera"]])
+        if self.blinks:
+            self.show_nodes(document)
         set_world(self.scene, extension(document).get("world") or self.world)
         set_materials(document, self.made.materials)
         if self.framing:
@@ -205,10 +263,50 @@ class Imported:
         return time * self.scene.render.fps
 
 
-def hide(found, hidden):
-    found.hide_render = hidden
-    for child in found.children:
-        hide(child, hidden)
+def instance_matrix(translation, rotation, scale):
+    """Of an instance below its node, from glTF's axes to Blender's."""
+    to_z_up = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
+    x, y, z, w = rotation
+    matrix = mathutils.Matrix.LocRotScale(mathutils.Vector(translation), mathutils.Quaternion((w, x, y, z)),
+                                          mathutils.Vector(scale))
+    return to_z_up @ matrix @ to_z_up.inverted()
+
+
+def set_plain_lights(document, made, note):
+    """Lights of KHR_lights_punctual alone: points without a size, as Bounce draws them; Blender's new lights have one."""
+    lights = document.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
+    for index, holder in made.lights.items():
+        node = document["nodes"][index]
+        if "light" in extension(node):
+            continue
+        light = lights[node["extensions"]["KHR_lights_punctual"]["light"]]
+        watts = light.get("intensity", 1) / LUMENS_A_WATT
+        if light["type"] == "directional":
+            holder.data.energy, holder.data.angle = watts, 0
+        else:
+            holder.data.energy, holder.data.shadow_soft_size = 4 * math.pi * watts, 0
+        if light["type"] == "spot":
+            note(f"the edge of the spot {light.get('name', index)} follows Blender's law in the reference, not glTF's")
+
+
+def give_plain_materials(made):
+    """A surface without a material is white metal by glTF, and grey in Blender."""
+    plain = None
+    for found in made.nodes.values():
+        mesh = found.data if found.type == "MESH" else None
+        if mesh is None or (mesh.materials and all(mesh.materials)):
+            continue
+        if plain is None:
+            plain = bpy.data.materials.new("glTF default")
+            plain.use_nodes = True
+            shader = plain.node_tree.nodes["Principled BSDF"]
+            for name, value in (("Base Color", (1, 1, 1, 1)), ("Metallic", 1), ("Roughness", 1)):
+                shader.inputs[name].default_value = value
+        if not mesh.materials:
+            mesh.materials.append(plain)
+        for slot, material in enumerate(mesh.materials):
+            if material is None:
+                mesh.materials[slot] = plain
 
 
 def set_light(data, light):
@@ -232,8 +330,15 @@ def set_light(data, light):
         data.spread = light.get("spread_rad", math.pi)
 
 
-def set_camera(data, camera):
+def set_camera(data, described):
+    camera = extension(described)
     if not camera:
+        # The file's own numbers are of the picture's height.
+        data.sensor_fit = "VERTICAL"
+        if data.type == "ORTHO":
+            data.ortho_scale = 2 * abs(described["orthographic"]["ymag"])
+        else:
+            data.angle = described["perspective"]["yfov"]
         return
     data.sensor_fit = {"auto": "AUTO", "horizontal": "HORIZONTAL", "vertical": "VERTICAL"}[camera["sensor_fit"]]
     data.sensor_width = camera["sensor_width_mm"]
@@ -361,9 +466,19 @@ def import_nodes(path):
     made = MadeObjects()
     importer = sys.modules["io_scene_gltf2"]
     importer.glTF2ImportUserExtension = made.glTF2ImportUserExtension
+    from io_scene_gltf2.io.imp.gltf2_io_gltf import glTFImporter
+
+    plain_init = glTFImporter.__init__
+
+    def init(self, *arguments, **options):
+        plain_init(self, *arguments, **options)
+        self.extensions_managed = [*self.extensions_managed, *OURS]
+
+    glTFImporter.__init__ = init
     try:
         bpy.ops.import_scene.gltf(filepath=str(path))
     finally:
+        glTFImporter.__init__ = plain_init
         del importer.glTF2ImportUserExtension
     if not made.nodes:
         raise ValueError("this Blender's glTF importer does not tell what it makes of each node: is it older than 3.4?")
@@ -390,6 +505,8 @@ def load(path, addon, defaults, note):
             setattr(numpy, name, kind)
     scene.render.fps = max(1, round(root.get("frames", {}).get("fps", 24)))
     made = import_nodes(path)
+    set_plain_lights(document, made, note)
+    give_plain_materials(made)
     imported = Imported(document, buffers, scene, made, defaults, note)
     set_scene(scene, root, imported)
     choose_camera(scene, root, defaults, imported)

@@ -14,6 +14,7 @@
 #include "evaluate/blender_script.h"
 #include "evaluate/cycles_runner.h"
 #include "evaluate/embedded.h"
+#include "evaluate/picture_room.h"
 #include "evaluate/scratch_folder.h"
 #include "evaluate/sha256.h"
 #include "image/image_io.h"
@@ -143,7 +144,12 @@ class EeveeRun {
         const auto index =
             static_cast<size_t>(std::find(k_samples.begin(), k_samples.end(), samples) - k_samples.begin());
         CachedRender render;
-        render.image = read_image(output(frame, samples));
+        try {
+            render.image = read_image(output(frame, samples));
+        } catch (const Error&) {
+            const auto full = no_room_for_picture(scratch_.path(), job_.width, job_.height);
+            throw full ? *full : Error(ExitCode::failed, "a picture of Eevee is damaged");
+        }
         for (float& value : render.image.rgb) {
             value *= film_exposure_;
         }

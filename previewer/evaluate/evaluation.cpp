@@ -80,6 +80,10 @@ class Evaluator {
                                    key_with(k_own_light_paths));
         }
         refuse_what_blender_cannot();
+        not_exported_ = gltf_not_exported(gltf_);
+        for (const std::string& line : not_exported_) {
+            log::warning("{}", line);
+        }
     }
 
     Evaluation run() {
@@ -192,7 +196,9 @@ class Evaluator {
     void require_camera() const {
         if (is_blend(options_.scene) && !gltf_names_camera(gltf_)) {
             throw input_error(
-                fmt::format("{} has no active camera: Cycles cannot render it", options_.scene.string()));
+                fmt::format("{} has no active camera that Bounce and Cycles could both look through: set a "
+                            "perspective or orthographic one",
+                            options_.scene.string()));
         }
     }
 
@@ -380,6 +386,7 @@ class Evaluator {
         result_.startups = startups_of(result_, previews_, resolved_.export_seconds,
                                        measure_engine_starts(blender_, result_));
         result_.scene = options_.scene.filename().string();
+        result_.cycles.notes.insert(result_.cycles.notes.begin(), not_exported_.begin(), not_exported_.end());
         result_.command = options_.command;
         result_.date = utc_now();
         result_.width = options_.width;
@@ -403,6 +410,7 @@ class Evaluator {
     ResolvedScene resolved_;
     fs::path gltf_;
     fs::path blender_;
+    std::vector<std::string> not_exported_;
     std::string scene_hash_;   // of the content
     std::string render_hash_;  // of what Blender's renders depend on
     RenderCache render_cache_;

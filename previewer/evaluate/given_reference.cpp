@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "evaluate/cycles_runner.h"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -22,6 +23,7 @@ constexpr const char* k_scene = "bounce:scene";
 constexpr const char* k_scene_hash = "bounce:scene_hash";
 constexpr const char* k_frame = "bounce:frame";
 constexpr const char* k_bounces = "bounce:bounces";
+constexpr const char* k_light_paths = "bounce:light_paths";
 constexpr const char* k_noise_floor = "bounce:noise_floor_relmse";
 constexpr const char* k_seconds = "bounce:seconds";
 constexpr const char* k_spp = "bounce:spp";
@@ -80,6 +82,14 @@ ImageAttributes reference_attributes(const Reference& reference, const std::stri
     return attributes;
 }
 
+ImageAttributes final_attributes(const Reference& reference, const std::string& scene,
+                                 const std::string& scene_hash) {
+    ImageAttributes attributes = reference_attributes(reference, scene, scene_hash, k_own_light_paths);
+    attributes.erase(k_bounces);
+    attributes[k_light_paths] = "the scene's own";
+    return attributes;
+}
+
 Reference load_given_reference(const std::string& name, int frame, int width, int height, int bounces,
                                const std::string& scene_hash) {
     const fs::path path = path_of(name, frame);
@@ -99,6 +109,10 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
                                       path.string(),
                                       scene == header.end() ? "unnamed" : printable(scene->second)));
     }
+    if (header.contains(k_light_paths)) {
+        throw input_error(fmt::format(
+            "{} is the final render, by the scene's own light paths, and no reference", path.string()));
+    }
     if (const auto of = number<int>(header, k_frame, path); of && *of != frame) {
         throw input_error(
             fmt::format("the reference {} is of frame {}, not of frame {}", path.string(), *of, frame));
@@ -111,7 +125,7 @@ Reference load_given_reference(const std::string& name, int frame, int width, in
                      [](float value) { return std::isfinite(value); })) {
         throw input_error(fmt::format("the reference {} has values that are not numbers", path.string()));
     }
-    if (!header.contains(k_scene_hash) && !header.contains(k_frame) && !header.contains(k_bounces)) {
+    if (!header.contains(k_scene_hash) && !header.contains(k_bounces)) {
         log::warning(
             "the reference {} does not say of which scene, frame and bounces it is; it is taken for the "
             "right one",

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -271,17 +272,17 @@ std::string results_table(const Evaluation& evaluation) {
                                  100.0 * point.bias, point.pareto ? "* " : "  ", equal);
         }
     }
-    if (!evaluation.given_reference.empty()) {
-        return table + fmt::format("* on the Pareto front. Reference: {}, noise floor {:.2g}.\n",
-                                   evaluation.given_reference,
-                                   mean_of(evaluation.references, &Reference::noise_floor));
-    }
     if (evaluation.final_render) {
         const FinalErrors& matched = evaluation.final_render->matched;
         table += fmt::format(
             "Against the scene by its own light paths the reference itself is off by relMSE {:.3g}, FLIP "
             "{:.4f}, {:+.2f}%.\n",
             matched.relmse, matched.flip_ldr, 100.0 * matched.bias);
+    }
+    if (!evaluation.given_reference.empty()) {
+        return table + fmt::format("* on the Pareto front. Reference: {}, noise floor {:.2g}.\n",
+                                   evaluation.given_reference,
+                                   mean_of(evaluation.references, &Reference::noise_floor));
     }
     table += fmt::format(
         "* on the Pareto front. Reference: Cycles {}, {}, {:.1f} s a frame, noise floor {:.2g}.\n",
@@ -318,6 +319,9 @@ std::vector<std::pair<std::string, std::string>> shown_points(const Evaluation& 
 }
 
 void write_report(const Evaluation& evaluation, const std::filesystem::path& folder) {
+    // Of an earlier run: it would say that this one's report is whole before it is.
+    std::error_code ignored;
+    std::filesystem::remove(folder / "results.json", ignored);
     const auto shown = shown_points(evaluation);
     const auto attributes = [&](int frame) {
         return ImageAttributes{{"bounce:scene", evaluation.scene}, {"bounce:frame", std::to_string(frame)}};
@@ -330,7 +334,7 @@ void write_report(const Evaluation& evaluation, const std::filesystem::path& fol
     if (evaluation.final_render) {
         for (const Reference& reference : evaluation.final_render->references) {
             write_image(folder / "frames" / fmt::format("final.{:04}.exr", reference.frame), reference.image,
-                        attributes(reference.frame));
+                        final_attributes(reference, evaluation.scene, evaluation.scene_hash));
         }
     }
     for (const Picture& picture : evaluation.pictures) {

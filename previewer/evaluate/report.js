@@ -135,6 +135,14 @@ const report = (() => {
     if (point.seconds_least !== null) element("small", spread(point), cell);
     return cell;
   };
+  // A curve's name behind a swatch of its colour, as a row's next cell.
+  const curveCell = (row, curve, mark = "") => {
+    const cell = row.insertCell();
+    const swatch = element("span", "", cell);
+    swatch.className = "swatch";
+    swatch.style.background = colorOf(curve);
+    cell.append(curve.name + mark);
+  };
   const fillPoints = () => {
     const table = byId("points");
     table.replaceChildren();
@@ -148,11 +156,7 @@ const report = (() => {
       for (const point of curve.points) {
         const row = body.insertRow();
         if (point.pareto) row.className = "front";
-        const name = row.insertCell();
-        const swatch = element("span", "", name);
-        swatch.className = "swatch";
-        swatch.style.background = colorOf(curve);
-        name.append(`${curve.name}${point.own_front ? " ◆" : ""}`);
+        curveCell(row, curve, point.own_front ? " ◆" : "");
         const speedup = speedupOf(curve.name, point.label);
         const equal = !speedup ? "" : speedup.cycles_time === "fastest_point" ? `≤ ${time(speedup.cycles_seconds)}`
           : `${time(speedup.cycles_seconds)}${speedup.cycles_time === "extrapolated" ? " *" : ""}`;
@@ -242,6 +246,6 @@ const report = (() => {
     }
   });
 
-  return { results, pictures, byId, best, colorOf, shapeOf, variable, scheme, digits, scientific, time, percent, element, spread, tick, span,
+  return { results, pictures, byId, best, colorOf, curveCell, shapeOf, variable, scheme, digits, scientific, time, percent, element, spread, tick, span,
     tabs, onSchemeChange };
 })();

@@ -2,7 +2,7 @@
 // What is left to the picture that the artist will get: Cycles by the scene's own light paths.
 "use strict";
 (() => {
-  const { results, byId, colorOf, digits, scientific, percent, element, onSchemeChange } = report;
+  const { results, byId, curveCell, digits, scientific, percent, element, onSchemeChange } = report;
   const final = results.final_render;
   if (!final) {
     byId("final-section").hidden = true;
@@ -33,11 +33,7 @@
     add(first, final.matched_reference);
     for (const { curve, label, errors } of rows) {
       const row = body.insertRow();
-      const name = row.insertCell();
-      const swatch = element("span", "", name);
-      swatch.className = "swatch";
-      swatch.style.background = colorOf(curve);
-      name.append(curve.name);
+      curveCell(row, curve);
       row.insertCell().textContent = label;
       add(row, errors);
     }

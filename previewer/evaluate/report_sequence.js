@@ -2,7 +2,7 @@
 // How steady each way of rendering is from frame to frame, where the frames are a sequence.
 "use strict";
 (() => {
-  const { results, byId, colorOf, digits, scientific, element, onSchemeChange } = report;
+  const { results, byId, curveCell, digits, scientific, element, onSchemeChange } = report;
   const rows = results.curves.flatMap((curve) => curve.points.filter((point) => point.sequence)
     .map((point) => ({ curve, point, figures: point.sequence })));
   if (!results.sequence || rows.length === 0) {
@@ -75,11 +75,7 @@
     }
     for (const { curve, point, figures } of inOrder()) {
       const row = body.insertRow();
-      const name = row.insertCell();
-      const swatch = element("span", "", name);
-      swatch.className = "swatch";
-      swatch.style.background = colorOf(curve);
-      name.append(curve.name);
+      curveCell(row, curve);
       row.insertCell().textContent = point.label;
       for (const column of columns) {
         const cell = row.insertCell();

@@ -2,7 +2,7 @@
 // Two pictures of a frame side by side or with a wipe, and maps of where one of them differs from the reference.
 "use strict";
 (() => {
-  const { results, pictures, byId, digits, scientific, time, percent, element, tabs } = report;
+  const { results, pictures, byId, best, digits, scientific, time, percent, element, tabs } = report;
   const view = results.view;
   byId("frames-note").textContent = `Shown through ${view.transform}` +
     `${view.look && view.look !== "None" ? ` (${view.look})` : ""}` +
@@ -14,7 +14,9 @@
   const nameOf = (preview) => `${preview.curve}, ${preview.label}`;
   const k_final = "Final render";
   const names = pictures[0].previews.map(nameOf).concat(k_reference, results.final_render ? [k_final] : []);
-  const state = { frame: 0, left: names[0], right: k_reference };
+  // The point that the cards tell of, where its picture is here.
+  const first = best && names.includes(`${best.curve}, ${best.label}`) ? `${best.curve}, ${best.label}` : names[0];
+  const state = { frame: 0, left: first, right: k_reference };
 
   // The picture of that name in the frame that is shown, with its figures.
   const pictureOf = (name) => {

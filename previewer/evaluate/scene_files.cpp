@@ -5,6 +5,7 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,10 @@ namespace {
 // The JSON text of a .gltf, or of a .glb's first chunk: twelve bytes of header, then length, type and text,
 // numbers little-endian (glTF 2.0, section 4.4).
 std::string json_text(const fs::path& gltf) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(gltf, ignored)) {
+        return {};  // a folder cannot be read, a pipe not twice
+    }
     std::ifstream in(gltf, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     constexpr size_t header = 20;
@@ -107,6 +112,23 @@ bool is_blend(const fs::path& scene) {
 bool gltf_names_camera(const fs::path& gltf) {
     const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
     return json.is_object() && json.contains("/extensions/BOUNCE_scene/camera"_json_pointer);
+}
+
+std::vector<std::string> gltf_not_exported(const fs::path& gltf) {
+    std::vector<std::string> lines;
+    const auto json = nlohmann::json::parse(json_text(gltf), nullptr, false);
+    const auto at = "/extensions/BOUNCE_scene/unsupported"_json_pointer;
+    if (!json.is_object() || !json.contains(at) || !json[at].is_array()) {
+        return lines;
+    }
+    for (const auto& item : json[at]) {
+        if (item.is_object() && item.contains("object") && item["object"].is_string() &&
+            item.contains("what") && item["what"].is_string()) {
+            lines.push_back("not exported: " + item["object"].get<std::string>() + ": " +
+                            item["what"].get<std::string>());
+        }
+    }
+    return lines;
 }
 
 bool is_gltf(const fs::path& gltf) {

@@ -25,6 +25,10 @@ namespace bounce {
 // Whether the file names the scene's active camera, as our exporter does where Blender has one.
 [[nodiscard]] bool gltf_names_camera(const std::filesystem::path& gltf);
 
+// What our exporter could not carry over, a sentence each: "not exported: Suzanne: Glass BSDF, exported as a
+// ...".
+[[nodiscard]] std::vector<std::string> gltf_not_exported(const std::filesystem::path& gltf);
+
 // Whether the file holds what a glTF begins with, a JSON object; it may still be none that can be loaded.
 [[nodiscard]] bool is_gltf(const std::filesystem::path& gltf);
 

@@ -23,6 +23,7 @@ size_t bytes_per_texel(GLenum format) {
             return 4;
         case GL_RGBA16:
         case GL_RGBA16F:
+        case GL_RG32F:
             return 8;
         default:
             return 16;

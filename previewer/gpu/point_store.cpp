@@ -30,7 +30,10 @@ bool same_draws(const std::vector<scene::DrawInstance>& a, const std::vector<sce
 }  // namespace
 
 PointStore::PointStore(const scene::Scene& scene, int animation)
-    : scene_(scene), parts_(scene::surface_parts(scene, animation)), hull_finder_(scene_, parts_) {}
+    : scene_(scene),
+      animation_(animation),
+      parts_(scene::surface_parts(scene, animation)),
+      hull_finder_(scene_, parts_) {}
 
 std::vector<bool> PointStore::on_hull(const scene::Pose& pose, bool drop_hull) {
     if (!drop_hull) {
@@ -52,6 +55,37 @@ double PointStore::occluding_area_m2(const scene::Pose& pose, bool drop_hull) {
         area += hull[i] ? 0.0 : parts_.parts[i].area_m2;
     }
     return area;
+}
+
+scene::Ground PointStore::ground(const scene::Pose& pose) {
+    return scene::find_ground(scene_, pose, parts_, on_hull(pose, true));
+}
+
+const scene::Ground& PointStore::first_ground() {
+    if (!first_ground_) {
+        const scene::Pose pose = scene::evaluate_pose(scene_, 0.0, animation_);
+        first_ground_ = scene::find_ground(scene_, pose, parts_, hull_finder_.on_hull(pose));
+    }
+    return *first_ground_;
+}
+
+// A function of the scene alone, so that a frame's points do not depend on which frames were rendered before.
+scene::Thinning PointStore::thinning() {
+    const scene::Pose pose = scene::evaluate_pose(scene_, 0.0, animation_);
+    const scene::Ground& ground = first_ground();
+    scene::Thinning out{ground.surfaces, ground.rest.center(), 0.5 * ground.rest.diagonal(), {}, &scene_};
+    for (const scene::PointSurface& surface : parts_.surfaces) {
+        const scene::Node& node = scene_.nodes[at(surface.node)];
+        const glm::dmat4& m = pose.world_from_node[at(surface.node)];
+        out.world_from_model.push_back(node.instances.empty() ? m : m * node.instances[at(surface.instance)]);
+    }
+    return out;
+}
+
+size_t PointStore::large_triangles_inside() const {
+    return static_cast<size_t>(
+        std::count_if(set_.large.begin(), set_.large.end(),
+                      [](const scene::SurfaceTriangle& triangle) { return !triangle.on_hull; }));
 }
 
 glm::uvec4 PointStore::place(uint32_t surface_index, const glm::uvec3& triangle,
@@ -148,11 +182,16 @@ void PointStore::find_changes(const std::vector<GpuPointSurface>& now) {
 }
 
 void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, const VertexStore& vertices,
-                          const scene::PointCounts& wanted, bool drop_hull) {
+                          const scene::PointCounts& wanted, bool drop_hull, bool thin_ground) {
     positions_ = &vertices.positions();
-    const std::vector<bool> hull = on_hull(pose, drop_hull);
-    if (wanted != wanted_ || hull != sampled_on_hull_) {
-        set_ = scene::sample_points(parts_, hull, wanted);
+    const std::vector<bool> hull = on_hull(pose, drop_hull || wanted.hull_hides);
+    if (wanted != wanted_ || hull != sampled_on_hull_ || thin_ground != thinned_) {
+        scene::Thinning thinned;
+        if (thin_ground) {
+            thinned = thinning();
+        }
+        set_ = scene::sample_points(parts_, hull, wanted, thin_ground ? &thinned : nullptr);
+        thinned_ = thin_ground;
         scene::drop_cut_out(scene_, parts_, set_.occluders);
         scene::drop_cut_out(scene_, parts_, set_.reflectors);
         wanted_ = wanted;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gl/buffer.h"
 #include "gpu/render_space.h"
 #include "gpu/shared_types.h"
 #include "gpu/vertex_store.h"
+#include "scene/points/ground.h"
 #include "scene/points/hull.h"
 #include "scene/points/point_set.h"
 
@@ -25,10 +27,12 @@ class PointStore {
   public:
     PointStore(const scene::Scene& scene, int animation);
 
-    // drop_hull: surfaces on the scene's hull hide nothing. Samples points where the counts or the surfaces
-    // on the hull changed, and finds out what moved since update_done() was last called.
+    // drop_hull: surfaces on the scene's hull hide nothing within the scene. thin_ground: reflectors are the
+    // more thinly spread on the ground (scene/points/ground.h, where the animation begins) the farther it
+    // lies from all else. Samples points where the counts or the surfaces on the hull changed, and finds out
+    // what moved since update_done() was last called.
     void set_pose(const scene::Pose& pose, const RenderSpace& space, const VertexStore& vertices,
-                  const scene::PointCounts& wanted, bool drop_hull);
+                  const scene::PointCounts& wanted, bool drop_hull, bool thin_ground);
 
     // Sources whose surfaces changed; and whether those of large triangles did.
     [[nodiscard]] const std::vector<PointRun>& changed() const { return changed_; }
@@ -36,12 +40,19 @@ class PointStore {
     void update_done();
 
     [[nodiscard]] size_t large_triangles() const { return set_.large.size(); }
+    // Those that hide something within the scene; they stand first.
+    [[nodiscard]] size_t large_triangles_inside() const;
     [[nodiscard]] size_t occluders() const { return set_.occluders.size(); }
     [[nodiscard]] size_t reflectors() const { return set_.reflectors.size(); }
     [[nodiscard]] double occluder_area_m2() const { return set_.occluder_area_m2; }
     [[nodiscard]] double reflector_area_m2() const { return set_.reflector_area_m2; }
+    [[nodiscard]] double dense_reflector_area_m2() const { return set_.dense_reflector_area_m2; }
     // Area of what may hide something at this pose, before any point is sampled; metres^2.
     [[nodiscard]] double occluding_area_m2(const scene::Pose& pose, bool drop_hull);
+    // Of this pose; see scene/points/ground.h.
+    [[nodiscard]] scene::Ground ground(const scene::Pose& pose);
+    // The same where the animation begins: of the scene alone, whichever frame is drawn.
+    [[nodiscard]] const scene::Ground& first_ground();
     [[nodiscard]] const scene::SurfaceParts& parts() const { return parts_; }
 
     // uvec4 a point (shaders/lib/points.glsl): occluders, then reflectors.
@@ -63,8 +74,10 @@ class PointStore {
     void upload(const VertexStore& vertices);
     void find_changes(const std::vector<GpuPointSurface>& now);
     std::vector<bool> on_hull(const scene::Pose& pose, bool drop_hull);
+    [[nodiscard]] scene::Thinning thinning();
 
     const scene::Scene& scene_;
+    int animation_ = 0;
     scene::SurfaceParts parts_;
     scene::HullFinder hull_finder_;
     std::vector<bool> on_hull_;
@@ -72,6 +85,8 @@ class PointStore {
     std::vector<scene::DrawInstance> hull_draws_;  // of the pose that on_hull_ is for
     scene::PointSet set_;
     scene::PointCounts wanted_;
+    bool thinned_ = false;
+    std::optional<scene::Ground> first_ground_;
     std::vector<PointRun> surface_runs_;  // one a surface
     std::vector<GpuPointSurface> surfaces_;
     std::vector<GpuPointSurface> updated_surfaces_;

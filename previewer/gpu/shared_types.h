@@ -17,6 +17,8 @@ constexpr std::size_t k_row = sizeof(vec4);  // a mat4 has four
 static_assert(sizeof(FrameUniforms) == (4 + 6) * k_row);
 static_assert(sizeof(ViewUniforms) == (4 + 1) * k_row);
 static_assert(sizeof(GpuLight) == 8 * k_row);
+static_assert(sizeof(GpuShadowView) == 7 * k_row);
+static_assert(sizeof(ShadowViews) == SHADOW_VIEW_CHUNK * 7 * k_row);
 static_assert(sizeof(GpuMaterial) == 12 * k_row);
 static_assert(sizeof(GpuDraw) == 7 * k_row);
 static_assert(sizeof(MotionUniforms) == (2 * 4 + 3) * k_row);

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "core/process.h"
 
@@ -46,13 +47,22 @@ std::optional<fs::path> color_config_of_blender(const fs::path& blender_executab
     return config_in_or_below(real.parent_path().parent_path() / "share" / "blender");
 }
 
-std::optional<fs::path> find_color_config() {
+std::vector<fs::path> color_config_candidates() {
+    std::vector<fs::path> candidates;
     if (const char* config = std::getenv("OCIO"); config != nullptr && *config != '\0') {
-        return fs::path(config);
+        candidates.emplace_back(config);
     }
     const char* blender = std::getenv("BLENDER");
     const auto executable = find_program(blender != nullptr && *blender != '\0' ? blender : "blender");
-    return executable ? color_config_of_blender(*executable) : std::nullopt;
+    if (auto config = executable ? color_config_of_blender(*executable) : std::nullopt) {
+        candidates.push_back(std::move(*config));
+    }
+    return candidates;
+}
+
+std::optional<fs::path> find_color_config() {
+    const std::vector<fs::path> candidates = color_config_candidates();
+    return candidates.empty() ? std::nullopt : std::optional(candidates.front());
 }
 
 }  // namespace bounce

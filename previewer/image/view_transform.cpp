@@ -2,18 +2,21 @@
 #include "image/view_transform.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/log.h"
-#include "image/color_config.h"
+#include "image/display_config.h"
 #include "image/srgb.h"
 
 namespace bounce {
@@ -81,40 +84,102 @@ ocio::ConstCPUProcessorRcPtr make_processor(const ocio::ConstConfigRcPtr& config
     return config->getProcessor(group)->getDefaultCPUProcessor();
 }
 
-void warn_once(const std::string& why, const ViewTransform& view) {
-    static std::atomic<bool> warned{false};
-    if (!warned.exchange(true)) {
-        log::warning("view transform {} (look {}, display {}) is shown as Standard: {}", view.view_transform,
-                     view.look, view.display_device, why);
+void warn_once(const std::string& sentence) {
+    static std::mutex mutex;
+    static std::set<std::string> told;
+    const std::scoped_lock lock(mutex);
+    if (told.insert(sentence).second) {
+        log::warning("{}", sentence);
     }
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// A name of a view that the configuration does not have.
+struct Unknown {
+    const char* what = nullptr;  // null where all is there
+    std::string ViewTransform::*name = nullptr;
+    std::vector<std::string> known;
+};
+
+Unknown first_unknown(const DisplayConfig& config, const ViewTransform& view) {
+    if (auto names = displays_of(config); !has(names, view.display_device)) {
+        return {"display", &ViewTransform::display_device, std::move(names)};
+    }
+    if (auto names = views_of(config, view.display_device); !has(names, view.view_transform)) {
+        return {"view transform", &ViewTransform::view_transform, std::move(names)};
+    }
+    if (auto names = looks_of(config); !without_look(view) && !has(names, view.look)) {
+        return {"look", &ViewTransform::look, std::move(names)};
+    }
+    return {};
+}
+
+std::string sentence(const DisplayConfig& config, const Unknown& unknown, const ViewTransform& view) {
+    const std::string names = fmt::format("{}", fmt::join(unknown.known, ", "));
+    if (config.ocio) {
+        return fmt::format("{} '{}' is not in {}, which has {}", unknown.what, view.*unknown.name,
+                           config.path, names);
+    }
+    return fmt::format(
+        "{} '{}' needs a colour configuration of Blender, and {} (set OCIO or BLENDER); without one there is "
+        "{}",
+        unknown.what, view.*unknown.name,
+        config.faults.empty() ? "none was found" : "the one named cannot be read", names);
+}
+
+// The view with what the configuration has in the place of what it has not, each told.
+ViewTransform known_view(const DisplayConfig& config, const ViewTransform& asked) {
+    ViewTransform view = asked;
+    for (Unknown unknown = first_unknown(config, view); unknown.what != nullptr;
+         unknown = first_unknown(config, view)) {
+        const ViewTransform plain{.exposure = asked.exposure, .gamma = asked.gamma};
+        if (unknown.known.empty()) {  // a configuration without any display
+            warn_once(
+                fmt::format("{}nothing; Standard for sRGB is used instead", sentence(config, unknown, view)));
+            return plain;
+        }
+        const std::string used =
+            has(unknown.known, plain.*unknown.name) ? plain.*unknown.name : unknown.known.front();
+        warn_once(fmt::format("{}; {} is used instead", sentence(config, unknown, view), used));
+        view.*unknown.name = used;
+    }
+    return view;
 }
 
 using Key = std::tuple<std::string, std::string, std::string, std::string, float, float>;
 
 // The processor of the last view asked for: an animation asks for the same one every frame, and reading
-// the configuration's tables takes longer than a small picture. Null where there is none.
-ocio::ConstCPUProcessorRcPtr processor_for(const ViewTransform& view) {
+// the configuration's tables takes longer than a small picture. Null where Standard for sRGB is what there
+// is.
+ocio::ConstCPUProcessorRcPtr processor_for(const ViewTransform& asked) {
     static std::mutex mutex;
     static Key cached_key;
     static ocio::ConstCPUProcessorRcPtr cached;
 
-    const auto config_path = find_color_config();
-    if (!config_path) {
-        warn_once("no OpenColorIO configuration of Blender was found (set OCIO or BLENDER)", view);
+    const DisplayConfig config = display_config();
+    for (const std::string& fault : config.faults) {
+        warn_once(fault);
+    }
+    const ViewTransform view = known_view(config, asked);
+    if (!config.ocio || is_plain_standard(view)) {
         return {};
     }
     const std::scoped_lock lock(mutex);
-    Key key{config_path->string(), view.display_device, view.view_transform, view.look,
-            view.exposure,         view.gamma};
+    Key key{config.path, view.display_device, view.view_transform, view.look, view.exposure, view.gamma};
     if (cached && key == cached_key) {
         return cached;
     }
     try {
-        cached = make_processor(ocio::Config::CreateFromFile(config_path->string().c_str()), view);
+        cached = make_processor(config.ocio, view);
         cached_key = std::move(key);
         return cached;
     } catch (const ocio::Exception& exception) {
-        warn_once(exception.what(), view);
+        // Names are known by now, so it is a table that is missing or broken.
+        warn_once(fmt::format("{}: view transform '{}' cannot be made: {}; Standard for sRGB is used instead",
+                              config.path, view.view_transform, one_line(exception.what())));
         return {};
     }
 }
@@ -123,6 +188,15 @@ ocio::ConstCPUProcessorRcPtr processor_for(const ViewTransform& view) {
 
 bool is_plain_standard(const ViewTransform& view) {
     return view.view_transform == "Standard" && view.display_device == "sRGB" && without_look(view);
+}
+
+std::string unknown_name(const ViewTransform& view) {
+    if (is_plain_standard(view)) {
+        return {};
+    }
+    const DisplayConfig config = display_config();
+    const Unknown unknown = first_unknown(config, view);
+    return unknown.what == nullptr ? std::string() : sentence(config, unknown, view);
 }
 
 Image to_display(const Image& scene_linear, const ViewTransform& view) {

@@ -19,10 +19,15 @@ struct ViewTransform {
 // True where the transform is exposure, the sRGB curve and gamma alone, and needs no configuration.
 [[nodiscard]] bool is_plain_standard(const ViewTransform& view);
 
+// The first name of the view that is not there, with those that are, as a sentence; empty where all are.
+// Without a configuration there is Standard for sRGB, without looks.
+[[nodiscard]] std::string unknown_name(const ViewTransform& view);
+
 // Display-referred copy of a scene-linear image, 0..1, by Blender's OpenColorIO configuration where one is
-// found ($OCIO, then the datafiles of the Blender on this machine). "Standard" needs no configuration:
-// exposure, the sRGB curve, gamma. Without a configuration any other transform falls back to Standard,
-// with one warning a process.
+// found (color_config_candidates()). "Standard" for sRGB needs none: exposure, the sRGB curve, gamma. What is
+// not there is replaced, and a warning says so once a process: an unknown display or view by Standard of
+// what is there, an unknown look by none; a configuration that cannot be read by the next one or, where there
+// is none, by Standard for sRGB. Exposure and gamma always count.
 [[nodiscard]] Image to_display(const Image& scene_linear, const ViewTransform& view);
 
 }  // namespace bounce

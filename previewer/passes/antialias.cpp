@@ -2,25 +2,14 @@
 #include "passes/antialias.h"
 
 #include <array>
-#include <cmath>
 #include <memory>
-#include <numbers>
+
+#include "passes/pixel_filter.h"
 
 namespace bounce::passes {
 namespace {
 
 constexpr int k_samples = AA_SAMPLES;
-// Cycles doubles the width that its Blackman-Harris filter is given (film.cpp): 1.5 px is a window over three
-// pixels.
-constexpr double k_filter_width = 3.0;
-
-double blackman_harris(double distance) {
-    const double t = 2.0 * std::numbers::pi * (distance / k_filter_width + 0.5);
-    const bool inside = std::abs(distance) < 0.5 * k_filter_width;
-    return inside
-               ? 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t)
-               : 0.0;
-}
 
 // The samples' places within a pixel, from its middle; of the framebuffer that is bound.
 std::array<glm::vec2, k_samples> sample_places() {
@@ -40,7 +29,7 @@ std::array<float, 9 * k_samples> filter_weights(const std::array<glm::vec2, k_sa
         const auto pixel = static_cast<int>(i) / k_samples;
         const glm::vec2 at = places[i % k_samples] + glm::vec2(pixel % 3 - 1, pixel / 3 - 1);
         const double weight =
-            blackman_harris(static_cast<double>(at.x)) * blackman_harris(static_cast<double>(at.y));
+            pixel_filter(static_cast<double>(at.x)) * pixel_filter(static_cast<double>(at.y));
         weights[i] = static_cast<float>(weight);
         sum += weight;
     }

@@ -4,7 +4,8 @@
 namespace bounce::passes {
 
 TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                               const LightPass& light, TextureHandle shadow_map, TextureHandle sum) {
+                               const LightPass& light, TextureHandle shadow_map, const SoftShadow& soft,
+                               TextureHandle sum) {
     TextureHandle out;
     graph.add_pass("direct light: " + light.name, [&](PassBuilder& builder) {
         read_gbuffer(builder, gbuffer);
@@ -21,7 +22,12 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
             builder.read(gbuffer.geometric_normal);
             defines["SHADOW"] = "1";
         }
-        return [context, gbuffer, light, shadow_map, out, defines](const PassResources& resources) {
+        if (soft.shares.valid()) {
+            builder.read(soft.shares);
+            builder.read(soft.flags);
+            defines["SOFT_SHADOW"] = "1";
+        }
+        return [context, gbuffer, light, shadow_map, soft, out, defines](const PassResources& resources) {
             context.programs.compute("passes/direct_light.comp", defines).use();
             context.uniforms.bind(UBO_FRAME, context.frame);
             context.uniforms.bind(UBO_LIGHT, light.uniforms);
@@ -29,6 +35,10 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
             if (shadow_map.valid()) {
                 resources.texture(shadow_map).bind(TEX_SHADOW);
                 resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
+            }
+            if (soft.shares.valid()) {
+                resources.texture(soft.shares).bind_image(IMG_IN, GL_READ_ONLY);
+                resources.buffer(soft.flags).bind_storage(SSBO_TILE_FLAGS);
             }
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
             dispatch_2d(context.width, context.height);

@@ -10,7 +10,9 @@ namespace {
 constexpr int k_largest_shared_map = 64;
 // Overlap of pull-push tiles: more than the reach of three levels and their interpolation.
 constexpr int k_border = 16;
-constexpr GLuint k_empty = 0x7bff0000U;  // ISM_EMPTY
+// ISM_EMPTY, and that of distant lights.
+constexpr GLuint k_empty = 0x7bff0000U;
+constexpr GLuint k_empty_distant = 0xffff0000U;
 
 bool fits_shared(const VplSet& set) {
     return set.map_size <= k_largest_shared_map;
@@ -31,8 +33,9 @@ gl::Defines pull_push_defines(const PullPushSettings& settings) {
     return defines;
 }
 
-void clear_atlas(const gl::Texture& atlas) {
-    glClearTexImage(atlas.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &k_empty);
+void clear_atlas(const gl::Texture& atlas, const VplSet& set) {
+    const GLuint& empty = set.distant ? k_empty_distant : k_empty;
+    glClearTexImage(atlas.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &empty);
 }
 
 void dispatch_splats(const VplSet& set) {
@@ -56,10 +59,9 @@ TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const
             resources.buffer(inputs.scene.triangles).bind_storage(SSBO_TRIANGLES);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             const auto tiles = static_cast<GLuint>(set.map_size / GROUP_MAP_TILE);
-            context.programs
-                .compute("passes/ism_triangles.comp",
-                         {{"TRIANGLE_COUNT", std::to_string(inputs.large_triangles)}})
-                .use();
+            gl::Defines defines{{"TRIANGLE_COUNT", std::to_string(inputs.large_triangles)}};
+            if (set.distant) defines["DISTANT"] = "1";
+            context.programs.compute("passes/ism_triangles.comp", defines).use();
             glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
             finish_writes();
         };
@@ -75,8 +77,9 @@ TextureHandle add_close(FrameGraph& graph, const PassContext& context, const Vpl
         builder.read(atlas);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
         return [context, set, atlas, out](const PassResources& resources) {
-            context.programs.compute("passes/ism_close.comp", {{"MAP_SIZE", std::to_string(set.map_size)}})
-                .use();
+            gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
+            if (set.distant) defines["DISTANT"] = "1";
+            context.programs.compute("passes/ism_close.comp", defines).use();
             context.uniforms.bind(UBO_ISM, set.uniforms);
             resources.texture(atlas).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
@@ -101,9 +104,10 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
         return [context, inputs, set, out, has_triangles](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) defines["SHARED"] = "1";
+            if (set.distant) defines["DISTANT"] = "1";
             if (inputs.close) defines["CLOSE"] = "1";
             if (has_triangles) defines["OVER_TRIANGLES"] = "1";
-            if (!fits_shared(set) && !has_triangles) clear_atlas(resources.texture(out));
+            if (!fits_shared(set) && !has_triangles) clear_atlas(resources.texture(out), set);
             context.programs.compute("passes/ism_disks.comp", defines).use();
             bind_set(context, resources, set);
             resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
@@ -160,7 +164,7 @@ IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInp
             if (fits_shared(set)) {
                 defines["SHARED"] = "1";
             } else {
-                clear_atlas(resources.texture(out.splats));
+                clear_atlas(resources.texture(out.splats), set);
             }
             if (fused) defines.merge(pull_push_defines(inputs.pull_push));
             context.programs.compute("passes/ism_squares.comp", defines).use();

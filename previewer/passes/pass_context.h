@@ -18,6 +18,20 @@ struct View {
     bool mirrored = false;             // the projection turns front faces into back faces
 };
 
+// The maps of a light with a size, one from each of some places on it; none where there are no chunks.
+struct SoftMaps {
+    struct Face {
+        int layer = 0;
+        View view;
+    };
+    int map_kind = 0;                             // MAP_*
+    int size = 0;                                 // texels a side
+    int layers = 0;                               // of all maps
+    std::vector<Face> faces;                      // those that are drawn
+    std::vector<gpu::UniformArena::Slot> chunks;  // ShadowViews
+    [[nodiscard]] bool empty() const { return chunks.empty(); }
+};
+
 // One light of the frame, ready to draw.
 struct LightPass {
     std::string name;
@@ -28,6 +42,7 @@ struct LightPass {
     int rsm_size = 0;
     int shadow_size = 0;
     bool casts_shadow = true;
+    SoftMaps soft;
     // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.
     double flux_w = 0.0;
 };

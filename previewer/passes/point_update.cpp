@@ -17,6 +17,20 @@ void dispatch_run(GLuint first, GLuint count) {
     }
 }
 
+// Only the shadow maps of what is outside of the scene draw triangles on the hull.
+void add_seals(const PassContext& context, gpu::PointStore& store) {
+    const size_t inside = store.large_triangles_inside();
+    const size_t on_hull = store.large_triangles() - inside;
+    if (on_hull == 0) {
+        return;
+    }
+    finish_writes();
+    context.programs.compute("passes/triangle_seals.comp").use();
+    store.bind_for_triangle_update();
+    glUniform2i(0, static_cast<GLint>(inside), static_cast<GLint>(on_hull));
+    glDispatchCompute((static_cast<GLuint>(on_hull) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+}
+
 }  // namespace
 
 ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
@@ -38,6 +52,7 @@ ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu:
                 context.programs.compute("passes/point_update.comp", {{"TRIANGLES", "1"}}).use();
                 store.bind_for_triangle_update();
                 dispatch_run(0, static_cast<GLuint>(store.large_triangles()));
+                add_seals(context, store);
             }
             finish_writes();
             store.update_done();

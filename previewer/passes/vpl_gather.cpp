@@ -15,6 +15,7 @@ gl::Defines gather_defines(const PassContext& context, const VplGatherInputs& in
     gl::Defines defines;
     if (set.atlas.valid()) defines["VISIBILITY"] = "1";
     if (inputs.slope_bias) defines["SLOPE_BIAS"] = "1";
+    if (set.distant) defines["DISTANT"] = "1";
     if (inputs.near_field && &set == &inputs.sets.front()) defines["NEAR_FIELD"] = "1";
     if (inputs.glossy) defines["GLOSSY"] = "1";
     if (inputs.removed) defines["REMOVED"] = "1";

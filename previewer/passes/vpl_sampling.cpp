@@ -136,6 +136,7 @@ DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
 DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, const IrsmSource& source,
                               VplSet layout, bool glossy) {
     gl::Defines defines{{"FROM_IRSM", "1"}};
+    if (source.set.distant) defines["DISTANT"] = "1";
     const bool splatted = source.irsm.valid();
     const TextureHandle map = splatted ? source.irsm : source.atlas;
     if (splatted) {

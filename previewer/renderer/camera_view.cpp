@@ -10,6 +10,12 @@ namespace {
 // The frame on the plane at distance 1 (orthographic: anywhere), metres.
 struct Window {
     double left, right, bottom, top;
+    void move(double x, double y) {
+        left += x;
+        right += x;
+        bottom += y;
+        top += y;
+    }
 };
 
 Window blender_window(const scene::Camera& camera, const scene::Sensor& sensor, double width, double height,
@@ -56,14 +62,15 @@ CameraView tighten_orthographic_depth(const CameraView& view, const scene::Bound
 
 CameraMatrices camera_matrices(const CameraView& view, int width, int height, const gpu::RenderSpace& space) {
     const scene::Camera& camera = view.camera;
-    const Window w = camera.sensor ? blender_window(camera, *camera.sensor, width, height, view.pixel_aspect)
-                                   : gltf_window(camera, width, height, view.pixel_aspect);
+    Window w = camera.sensor ? blender_window(camera, *camera.sensor, width, height, view.pixel_aspect)
+                             : gltf_window(camera, width, height, view.pixel_aspect);
+    w.move(view.offset_px.x * (w.right - w.left) / width, view.offset_px.y * (w.top - w.bottom) / height);
     CameraMatrices out;
     out.perspective = camera.perspective;
+    // Each axis without its scale, as Cycles takes a camera: below a mirrored parent its picture is mirrored.
+    const glm::dvec3 right = glm::normalize(glm::dvec3(view.world_from_camera[0]));
+    const glm::dvec3 up = glm::normalize(glm::dvec3(view.world_from_camera[1]));
     const glm::dvec3 back = glm::normalize(glm::dvec3(view.world_from_camera[2]));
-    // From the upward axis, so that a mirrored parent turns no picture over: a camera has no scale.
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(view.world_from_camera[1]), back));
-    const glm::dvec3 up = glm::cross(back, right);
     out.position = space.point(glm::dvec3(view.world_from_camera[3]));
     out.forward = -back;
 

@@ -10,9 +10,11 @@ namespace bounce {
 
 // A camera placed in the world and fitted to a picture.
 struct CameraView {
-    glm::dmat4 world_from_camera{1.0};  // looks along -Z; scale is ignored
+    glm::dmat4 world_from_camera{1.0};  // looks along -Z; scale is ignored, but not its sign
     scene::Camera camera;
     double pixel_aspect = 1.0;  // a pixel's width over its height
+    // Where pixels look, from their middles, in pixels: right and up.
+    glm::dvec2 offset_px{0.0};
 };
 
 // What the shaders need of a view, in render space.

@@ -5,8 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "renderer/penumbra.h"
+
 namespace bounce {
 namespace {
+
+// The picture's filter blurs a hard shadow's outline by more than this.
+constexpr double k_least_penumbra_pixels = 0.5;
 
 size_t at(int index) {
     return static_cast<size_t>(index);
@@ -59,7 +64,29 @@ void for_each_material(const scene::Scene& scene, const scene::Pose& pose, Visit
     }
 }
 
-void plan_lights(const scene::Pose& pose, FramePlan& plan) {
+// Whether a light that casts shadows has a penumbra to be drawn.
+bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& light,
+                     const Settings& settings, const Sight* sight, FramePlan& plan) {
+    const auto leave_out = [&](const char* reason) {
+        plan.left_out.push_back({"soft shadow: " + light.name, reason});
+        return false;
+    };
+    if (!(light_extent(instance, light) > 0.0)) {
+        return leave_out("the light has no size");
+    }
+    if (sight != nullptr &&
+        widest_penumbra_m(instance, light, sight->bounds) < k_least_penumbra_pixels * sight->finest_pixel_m) {
+        return leave_out("its penumbra is narrower than half a pixel everywhere");
+    }
+    if (settings.direct_shadows == DirectShadows::hard) {
+        plan.approximations.push_back(
+            fmt::format("light {}: drawn with a hard shadow in spite of its size, as asked for", light.name));
+        return leave_out("hard shadows were asked for");
+    }
+    return true;
+}
+
+void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight* sight, FramePlan& plan) {
     for (size_t i = 0; i < pose.light_instances.size(); ++i) {
         const scene::Light& light = pose.lights[at(pose.light_instances[i].light)];
         if (!sends_light(light)) {
@@ -71,13 +98,11 @@ void plan_lights(const scene::Pose& pose, FramePlan& plan) {
         if (plan.direct && !light.cast_shadow) {
             plan.left_out.push_back({"shadow map: " + light.name, "the light casts no shadow"});
         }
-        const bool soft = light.radius_m > 0.0F || light.angle_rad > 0.0F;
-        if (light.type == scene::LightType::area) {
+        plan.soft.push_back(plan.shadows.back() &&
+                            throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
+        if (light.type == scene::LightType::area && plan.indirect) {
             plan.approximations.push_back(
-                fmt::format("area light {}: its shadow and bounce are taken from its centre", light.name));
-        } else if (soft && plan.shadows.back()) {
-            plan.approximations.push_back(
-                fmt::format("light {}: drawn with a hard shadow in spite of its size", light.name));
+                fmt::format("area light {}: its bounce is taken from its centre", light.name));
         }
     }
     if (plan.lights.empty()) {
@@ -133,6 +158,7 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     const bool disks = settings.technique == Technique::ism && settings.visibility == Visibility::ism &&
                        settings.splat == Splat::disks;
     plan.close_maps = disks && !holes;
+    plan.close_world = !holes;
     if (disks && holes) {
         plan.left_out.push_back({"ism close", "a material has holes, which closing would fill"});
     }
@@ -149,7 +175,8 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
 
 }  // namespace
 
-FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings) {
+FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
+                     const Sight* sight) {
     FramePlan plan;
     plan.direct =
         settings.show == Show::shaded || settings.show == Show::direct || settings.show == Show::vpls;
@@ -168,13 +195,11 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         plan.left_out.push_back({"light", "the layer shows motion alone"});
         return plan;
     }
-    plan_lights(pose, plan);
+    plan_lights(pose, settings, sight, plan);
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.near_field = plan.vpls && settings.near_field;
-    plan.glossy = plan.vpls && settings.glossy_bounces;
-    plan.occluded = plan.vpls && settings.visibility != Visibility::none;
     plan.bounces = plan.vpls ? settings.bounces : 0;
     plan.interpolate = plan.indirect && settings.technique == Technique::rsm && settings.interpolate &&
                        settings.lowres_step > 1 && !settings.rsm_full_sum;
@@ -191,9 +216,26 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     }
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
-    if (plan.world_light) {
+    plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
+    if (!plan.world_occluded) {
+        plan.left_out.push_back({"world lights", !plan.world_light && whole ? "the world is black"
+                                                 : !plan.world_light ? "the layer shows other light alone"
+                                                 : settings.world_vpls == 0
+                                                     ? "the world's light was asked for without what hides it"
+                                                     : "nothing that is drawn has a triangle"});
+    }
+    plan.world_bounces =
+        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
+            ? settings.bounces
+            : 0;
+    // The option is one of technique ism; what surfaces reflect of the world directly has both lobes
+    // everywhere.
+    plan.glossy = (plan.vpls || plan.world_occluded) &&
+                  (settings.glossy_bounces || settings.technique != Technique::ism);
+    plan.occluded = (plan.vpls || plan.world_bounces > 0) && settings.visibility != Visibility::none;
+    if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
-    } else if (whole) {
+    } else if (!plan.world_light && whole) {
         plan.left_out.push_back({"world light", "the world is black"});
     }
     return plan;

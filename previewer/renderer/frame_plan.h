@@ -20,25 +20,36 @@ struct FramePlan {
     bool direct = false;
     bool indirect = false;      // any bounced light
     bool vpls = false;          // bounced light by virtual point lights
-    bool occluded = false;      // and these are occluded
+    bool occluded = false;      // these, or those of the world's bounces, are occluded
     int bounces = 0;            // of light by virtual point lights
     bool glossy = false;        // with the glossy lobes of lights and receivers
     bool narrow_lobes = false;  // some so narrow that they change within a block of interleaved pixels
     bool close_maps = false;    // bare places in maps of disks are closed
+    bool close_world = false;   // and in those of the world's lights
     bool near_field = false;    // what is near the lights is gathered from the RSMs
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;
-    bool world_light = false;
+    bool world_light = false;                 // the world is not black
+    bool world_occluded = false;              // and stands as virtual point lights
+    int world_bounces = 0;                    // of its light
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
     std::vector<bool> shadows;                // per entry of `lights`
+    std::vector<bool> soft;                   // the same: those whose shadow has a penumbra
     std::vector<LeftOut> left_out;            // and why
     std::vector<std::string> notes;           // why the picture lacks what was asked for
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
 };
 
+// What decides whether a penumbra can be seen.
+struct Sight {
+    scene::Bounds bounds;         // of the pose, world space
+    double finest_pixel_m = 0.0;  // penumbra.h
+};
+
+// sight: where it is null, every penumbra counts as seen.
 [[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose,
-                                   const Settings& settings);
+                                   const Settings& settings, const Sight* sight = nullptr);
 
 }  // namespace bounce

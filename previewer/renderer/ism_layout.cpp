@@ -57,6 +57,12 @@ IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map) {
     return layout;
 }
 
+IsmLayout world_layout(const Settings& settings, int points_a_map) {
+    Settings of = settings;
+    of.vpls = settings.world_vpls;
+    return ism_layout(of, 1, points_a_map);
+}
+
 double depth_complexity(double area_m2, double hull_surface_m2) {
     return hull_surface_m2 > 0.0 ? 2.0 * area_m2 / hull_surface_m2 : 0.0;
 }
@@ -86,12 +92,12 @@ gpu::IsmUniforms layout_uniforms(const IsmLayout& layout, size_t points, size_t 
 }  // namespace
 
 gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings, size_t reflectors,
-                               size_t first, double mean_radius) {
+                               size_t first, double mean_radius, double dense_area) {
     gpu::IsmUniforms out = layout_uniforms(layout, reflectors, first);
     const double density = static_cast<double>(reflectors) / layout.points_a_map;
     const double overlap = settings.splat_irsms ? k_reflector_overlap : 1.0;
-    out.splat =
-        glm::vec4(glm::dvec4(density * overlap * overlap, 0.0, k_flat_bias * mean_radius, k_slope_bias));
+    out.splat = glm::vec4(glm::dvec4(density * overlap * overlap, dense_area * density,
+                                     k_flat_bias * mean_radius, k_slope_bias));
     return out;
 }
 

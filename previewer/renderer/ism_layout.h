@@ -27,6 +27,9 @@ struct IsmLayout {
 // bounce: from 1; later ones have Settings::bounce_vpls lights.
 [[nodiscard]] IsmLayout ism_layout(const Settings& settings, int bounce, int points_a_map);
 
+// Of the lights that stand for the world: Settings::world_vpls of them.
+[[nodiscard]] IsmLayout world_layout(const Settings& settings, int points_a_map);
+
 // Points for one map: a quarter of the texels of a full parabolic map (Ritschel et al. 2008, 5.2), times the
 // mean number of surfaces along a line through the scene where that is above one, and at least what keeps
 // their disks small against the scene. depth_complexity: see depth_complexity().
@@ -45,8 +48,10 @@ struct IsmLayout {
                                             size_t occluders, double mean_radius);
 
 // The same for imperfect reflective shadow maps; their points, `reflectors`, stand behind `first` others.
-// What hides those is looked up in the maps that mean_radius is of.
+// What hides those is looked up in the maps that mean_radius is of. dense_area: that one of all reflectors
+// stands for where they are dense, render units; 0 where all stand for the same.
 [[nodiscard]] gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings,
-                                             size_t reflectors, size_t first, double mean_radius);
+                                             size_t reflectors, size_t first, double mean_radius,
+                                             double dense_area = 0.0);
 
 }  // namespace bounce

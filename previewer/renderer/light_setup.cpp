@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/penumbra.h"
+
 namespace bounce {
 namespace {
 
@@ -170,6 +172,7 @@ LightSetup set_up_light(const scene::LightInstance& instance, const scene::Light
             out.profile = PROFILE_UNIFORM;
             intensity = light.irradiance_w_m2;
             radius = 0.0;
+            gpu.cone.w = static_cast<float>(light_extent(instance, light));
             add_sun_face(frame, bounds, space, out);
             out.flux_w = luminance * intensity * 4.0 * static_cast<double>(gpu.tangent.w) *
                          static_cast<double>(gpu.bitangent.w) / squared_scale;

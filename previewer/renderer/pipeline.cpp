@@ -16,6 +16,7 @@
 #include "passes/rsm.h"
 #include "passes/rsm_gather.h"
 #include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 #include "passes/vpl_gather.h"
 #include "passes/vpl_sampling.h"
 #include "passes/vpl_view.h"
@@ -54,62 +55,104 @@ struct BouncedLights {
     bool slope_bias = false;            // the shadow maps' splats have one depth each
 };
 
-// Bounce by bounce: lights from what the bounce before reflects, and their shadow maps.
-BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
-                          const std::vector<passes::VplSource>& sources) {
+passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints& scene) {
+    return {.scene = scene,
+            .large_triangles = in.triangles_inside,
+            .splat = in.settings.splat,
+            .close = in.plan.close_maps,
+            .pull_push = {in.settings.pull_push, in.settings.pull_push_levels, in.settings.pull_threshold,
+                          in.settings.push_threshold}};
+}
+
+// The world's lights and their shadow maps, which are always drawn from disks.
+passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
+    passes::VplSet world = in.world.lights;
+    world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    passes::IsmInputs inputs = ism_inputs(in, scene);
+    inputs.large_triangles = static_cast<int>(in.points->large_triangles());
+    inputs.splat = passes::Splat::disks;
+    inputs.close = in.plan.close_world;
+    world.atlas = add_ism(graph, in.context, inputs, world).atlas;
+    return world;
+}
+
+// A bounce's lights with their shadow maps.
+void add_lights(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
+                passes::VplSet set, BouncedLights& lit) {
+    passes::IsmAtlas maps;
+    if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
+        maps.atlas = passes::add_classic_maps(graph, in.context, set);
+    } else if (in.plan.occluded) {
+        maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
+    }
+    set.atlas = maps.atlas;
+    lit.sets.push_back(set);
+    lit.splats.push_back(maps.splats);
+}
+
+// The lights of bounce `next`, from what surfaces reflect of the lights of the one before.
+passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
+                               const passes::VplSet& before, const passes::VplSet& irsms, const Bounce& next,
+                               bool slope_bias) {
     using namespace passes;
-    const PassContext& context = in.context;
-    const ScenePoints scene =
-        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
+    VplSet maps = irsms;
+    maps.vpls = before.vpls;
+    maps.distant = before.distant;
+    IrsmSource source{.set = maps,
+                      .irsm = {},
+                      .atlas = before.atlas,
+                      .slope_bias = slope_bias && !before.distant,
+                      .scene = scene,
+                      .store = in.points};
+    if (in.settings.splat_irsms && !before.distant) {
+        source.irsm = add_irsm(graph, in.context, scene, maps);
+    }
+    return add_vpls_from_irsms(graph, in.context, source, next.lights, in.plan.glossy).set;
+}
+
+// Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
+// lights, then of the world.
+BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
+                          const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene,
+                          const passes::VplSet& world) {
+    using namespace passes;
     BouncedLights lit;
     lit.slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks;
-    for (size_t bounce = 0; bounce < in.bounces.size(); ++bounce) {
-        DrawnVpls drawn;
-        if (bounce == 0) {
-            drawn = add_vpls_from_rsms(graph, context, sources, in.bounces[bounce].lights, in.plan.glossy);
+    for (size_t i = 0; i < in.bounces.size(); ++i) {
+        if (i == 0) {
+            const DrawnVpls drawn =
+                add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights, in.plan.glossy);
             lit.importance = drawn.importance;
+            add_lights(graph, in, scene, drawn.set, lit);
         } else {
-            VplSet maps = in.bounces[bounce - 1].irsms;
-            maps.vpls = lit.sets.back().vpls;
-            IrsmSource source{.set = maps,
-                              .irsm = {},
-                              .atlas = lit.sets.back().atlas,
-                              .slope_bias = lit.slope_bias,
-                              .scene = scene,
-                              .store = in.points};
-            if (in.settings.splat_irsms) {
-                source.irsm = add_irsm(graph, context, scene, maps);
-            }
-            drawn = add_vpls_from_irsms(graph, context, source, in.bounces[bounce].lights, in.plan.glossy);
+            add_lights(graph, in, scene,
+                       add_next_bounce(graph, in, scene, lit.sets.back(), in.bounces[i - 1].irsms,
+                                       in.bounces[i], lit.slope_bias),
+                       lit);
         }
-        IsmAtlas maps;
-        if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
-            maps.atlas = add_classic_maps(graph, context, drawn.set);
-        } else if (in.plan.occluded) {
-            maps = add_ism(graph, context,
-                           {.scene = scene,
-                            .large_triangles = static_cast<int>(in.points->large_triangles()),
-                            .splat = in.settings.splat,
-                            .close = in.plan.close_maps,
-                            .pull_push = {in.settings.pull_push, in.settings.pull_push_levels,
-                                          in.settings.pull_threshold, in.settings.push_threshold}},
-                           drawn.set);
-        }
-        drawn.set.atlas = maps.atlas;
-        lit.sets.push_back(drawn.set);
-        lit.splats.push_back(maps.splats);
+    }
+    for (size_t i = 0; i < in.world_bounces.size(); ++i) {
+        const bool first = i == 0;
+        add_lights(graph, in, scene,
+                   add_next_bounce(graph, in, scene, first ? world : lit.sets.back(),
+                                   first ? in.world.irsms : in.world_bounces[i - 1].irsms,
+                                   in.world_bounces[i], lit.slope_bias),
+                   lit);
     }
     return lit;
 }
 
 // Light of all bounces at once.
 TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
-                                const std::vector<passes::VplSource>& sources, const BouncedLights& lit) {
+                                const std::vector<passes::VplSource>& sources, const BouncedLights& lit,
+                                const std::vector<passes::VplSet>& world) {
     using namespace passes;
     const PassContext& context = in.context;
+    std::vector<VplSet> sets = lit.sets;
+    sets.insert(sets.end(), world.begin(), world.end());
     const GatheredLight light = add_vpl_gather(graph, context,
                                                {.gbuffer = gbuffer,
-                                                .sets = lit.sets,
+                                                .sets = sets,
                                                 .slope_bias = lit.slope_bias,
                                                 .near_field = in.plan.near_field,
                                                 .glossy = in.plan.glossy,
@@ -125,7 +168,7 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
                                   .glossy = in.plan.glossy},
                                  light);
     }
-    const int interleave = lit.sets.front().interleave;
+    const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
         return bounced;
     }
@@ -178,7 +221,9 @@ void add_all_dots(FrameGraph& graph, const PipelineInputs& in, const passes::GBu
                   const BouncedLights& lit, TextureHandle picture) {
     std::vector<passes::VplDots> dots;
     for (size_t i = 0; i < lit.sets.size(); ++i) {
-        const int bounce = static_cast<int>(i) + 1;
+        // Those of the scene's lights, then those of the world.
+        const size_t first = i < in.bounces.size() ? 0 : in.bounces.size();
+        const int bounce = static_cast<int>(i - first) + 1;
         if (in.settings.shown_bounce == 0 || in.settings.shown_bounce == bounce) {
             dots.push_back({lit.sets[i], bounce});
         }
@@ -214,9 +259,11 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
+            const bool soft = !light.soft.empty();
             const TextureHandle shadow =
-                in.plan.shadows[i] ? add_shadow_map(graph, context, light) : TextureHandle{};
-            direct = add_direct_light(graph, context, gbuffer, light, shadow, direct);
+                in.plan.shadows[i] && !soft ? add_shadow_map(graph, context, light) : TextureHandle{};
+            const SoftShadow penumbra = soft ? add_soft_shadow(graph, context, gbuffer, light) : SoftShadow{};
+            direct = add_direct_light(graph, context, gbuffer, light, shadow, penumbra, direct);
         }
         if (in.plan.indirect) {
             gather.sources.push_back(
@@ -233,17 +280,24 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     TextureHandle irradiance;
     TextureHandle bounced;
     BouncedLights lit;
-    if (in.plan.vpls) {
+    const ScenePoints scene =
+        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
+    std::vector<VplSet> world;
+    if (in.plan.world_occluded) {
+        world.push_back(add_world(graph, in, scene));
+    }
+    const bool lights_bounce = in.plan.vpls || in.plan.world_bounces > 0;
+    if (lights_bounce) {
         std::vector<VplSource> sources;
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
-        lit = add_bounces(graph, in, sources);
+        lit = add_bounces(graph, in, sources, scene, world.empty() ? VplSet{} : world.front());
         if (add_map_layer(graph, in, gbuffer, lit)) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            bounced = add_bounced_light(graph, in, gbuffer, sources, lit);
+            bounced = add_bounced_light(graph, in, gbuffer, sources, lit, world);
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
             const TextureHandle removed = add_removed(graph, in, gbuffer, lit);
@@ -273,13 +327,16 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         irradiance = add_rsm_gather(graph, context, gather);
     }
 
+    if (!lights_bounce && !world.empty()) {
+        bounced = add_bounced_light(graph, in, gbuffer, {}, lit, world);
+    }
     const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
     TextureHandle picture = add_composite(graph, context,
                                           {.gbuffer = gbuffer,
                                            .direct = direct,
                                            .irradiance = irradiance,
                                            .bounced = bounced,
-                                           .world_light = in.plan.world_light,
+                                           .world_light = in.plan.world_light && !in.plan.world_occluded,
                                            .emission = in.plan.emission && whole},
                                           in.plan.antialias ? TextureHandle{} : in.target);
     if (in.plan.antialias) {

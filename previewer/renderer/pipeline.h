@@ -30,7 +30,11 @@ struct PipelineInputs {
     std::vector<const gl::Buffer*> patterns;             // each light's
     gpu::PointStore* points = nullptr;                   // where the plan needs them
     std::vector<Bounce> bounces;                         // plan.bounces of them
-    passes::PreviousFrame previous;                      // where the plan shows motion
+    Bounce world;                                        // where plan.world_occluded; its lights' buffer:
+    gl::Buffer* world_lights = nullptr;
+    std::vector<Bounce> world_bounces;  // plan.world_bounces of them
+    int triangles_inside = 0;           // large triangles in maps of lights within the scene
+    passes::PreviousFrame previous;     // where the plan shows motion
     TextureHandle target;
     // Filled where they are there, each for a wait.
     int* gathered_pixels = nullptr;

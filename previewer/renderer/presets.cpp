@@ -10,14 +10,17 @@ Settings preset_settings(Preset preset) {
             break;
         case Preset::rsm2005:
             out.technique = Technique::rsm;
+            out.world_vpls = 0;  // the paper has no light from all around
+            out.direct_shadows = DirectShadows::hard;
             break;
         case Preset::ism2008:
             // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with
             // 4,096 points (P = N_res / 4 of the whole square), two levels and 5 % of the scene's extent; of
-            // Table 1's blocks the one of 4 x 4 pixels.
+            // Table 1's blocks the one of 4 x 4 pixels. Section 5.1: an environment map of 1,024 lights.
             out.technique = Technique::ism;
             out.vpls = 1024;
             out.bounce_vpls = 256;
+            out.world_vpls = 1024;
             out.ism_size = 128;
             out.ism_points = 4096;
             out.splat = Splat::points;

@@ -14,7 +14,10 @@
 #include "passes/deform.h"
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
+#include "renderer/penumbra.h"
 #include "renderer/pipeline.h"
+#include "renderer/soft_setup.h"
+#include "renderer/world_lights.h"
 
 namespace bounce {
 namespace {
@@ -32,18 +35,23 @@ gpu::FrameUniforms frame_uniforms(const CameraMatrices& camera, const scene::Sce
                            settings.interpolation_plane, static_cast<float>(camera.pixel_radius),
                            settings.interpolation_distance};
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
-    frame.composite = {scene.render.film_exposure, whole ? 1.0F : 0.0F, 0.0F, half_scale};
+    frame.composite = {scene.render.film_exposure, whole ? 1.0F : 0.0F,
+                       1.0F / std::sqrt(static_cast<float>(settings.samples)), half_scale};
     return frame;
+}
+
+double box_surface_m2(const scene::Bounds& box) {
+    const glm::dvec3 side = box.empty() ? glm::dvec3(0.0) : box.high - box.low;
+    return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
 }
 
 // Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would
 // give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
 // what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
 // itself.
-float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds) {
-    const glm::dvec3 side = bounds.empty() ? glm::dvec3(0.0) : bounds.high - bounds.low;
-    const double box = 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
-    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box;
+float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds, double world_irradiance) {
+    const double box = box_surface_m2(bounds);
+    const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box + world_irradiance;
     if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
         return 1.0F;
     }
@@ -56,11 +64,11 @@ constexpr int k_irsm_size = 32;
 
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
-    return plan.occluded && settings.visibility == Visibility::ism;
+    return plan.world_occluded || (plan.occluded && settings.visibility == Visibility::ism);
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1;
+    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0;
 }
 
 passes::VplSet vpl_set(const IsmLayout& layout) {
@@ -76,23 +84,64 @@ passes::VplSet vpl_set(const IsmLayout& layout) {
     return set;
 }
 
+// Maps that hold all of a box from wherever they look, and half a hundredth more for what touches its
+// corners.
+DistantMaps distant_maps(const scene::Bounds& box, const gpu::RenderSpace& space) {
+    return {glm::vec3(space.point(box.center())),
+            static_cast<float>(std::max(0.505 * box.diagonal() * space.scale, 1e-6))};
+}
+
 // Lights of further bounces are drawn from a table of every lighted point, which must fit into one block of
 // what shaders read.
-void require_fitting_sums(const Settings& settings, int points_a_map, int bounces) {
-    if (bounces < 2 || settings.splat_irsms) {
-        return;
+void require_fitting_sums(const Settings& settings, const FramePlan& plan, int points_a_map) {
+    const bool tables = !settings.splat_irsms;  // of lights within the scene
+    int lights = plan.world_bounces > 0 ? settings.world_vpls : 0;
+    const char* option = "--world-vpls";
+    for (const auto& [count, name] :
+         {std::pair(tables && plan.bounces > 1 ? settings.vpls : 0, "--vpls"),
+          std::pair(tables && (plan.bounces > 2 || plan.world_bounces > 1) ? settings.bounce_vpls : 0,
+                    "--bounce-vpls")}) {
+        option = count > lights ? name : option;
+        lights = std::max(lights, count);
     }
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    const int lights = bounces > 2 ? std::max(settings.vpls, settings.bounce_vpls) : settings.vpls;
     const int64_t bytes = int64_t{lights} * points_a_map * int64_t{sizeof(float)};
     if (bytes > most) {
         throw usage_error(fmt::format(
             "{} virtual point lights with {} points each are too many for this OpenGL driver to draw further "
             "bounces from: lower {} to {}, or give --bounces 1",
-            lights, points_a_map, lights == settings.vpls ? "--vpls" : "--bounce-vpls",
-            most / (int64_t{sizeof(float)} * points_a_map)));
+            lights, points_a_map, option, most / (int64_t{sizeof(float)} * points_a_map)));
     }
+}
+
+// What the camera sees of each draw.
+std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrices& camera) {
+    std::vector<gpu::DrawBox> boxes;
+    for (const gpu::DrawBatch& batch : scene.batches()) {
+        for (uint32_t draw = batch.first_draw; draw < batch.first_draw + batch.draw_count; ++draw) {
+            boxes.push_back(scene.draw_box(draw));
+        }
+    }
+    return seen_regions(boxes, gpu::draw_box(scene.bounds(), scene.space()), camera.clip_from_render,
+                        camera.render_from_clip);
+}
+
+template <typename MakeView>
+passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, MakeView&& make_view) {
+    passes::SoftMaps out;
+    out.map_kind = setup.map_kind;
+    out.size = setup.size;
+    out.layers = setup.layers;
+    for (const SoftFace& face : setup.faces) {
+        out.faces.push_back({face.layer, make_view(face.view.clip_from_render, face.view.mirrored)});
+    }
+    for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
+        gpu::ShadowViews chunk{};
+        std::copy_n(&setup.views[first], SHADOW_VIEW_CHUNK, chunk.view);
+        out.chunks.push_back(uniforms.add(chunk));
+    }
+    return out;
 }
 
 }  // namespace
@@ -100,8 +149,9 @@ void require_fitting_sums(const Settings& settings, int points_a_map, int bounce
 Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
 Renderer::~Renderer() = default;
 
-std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
-                                              FramePlan& plan, FrameReport& report) {
+Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
+                                               FramePlan& plan, FrameReport& report) {
+    LitBounces out;
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
     if (needs_points && !points_) {
@@ -119,21 +169,30 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         const bool fills = settings.splat != Splat::disks && settings.pull_push != PullPush::off;
         const bool drop_hull = settings.drop_hull && !fills;
         const double occluding = points_->occluding_area_m2(pose, drop_hull);
+        // Lines through what stands on a wide ground meet more of it than lines through the box around both.
+        const double around = plan.world_occluded ? box_surface_m2(points_->first_ground().rest) : hull;
         first.points_a_map = settings.ism_points > 0
                                  ? settings.ism_points
-                                 : automatic_points(settings.ism_size, depth_complexity(occluding, hull));
+                                 : automatic_points(settings.ism_size, depth_complexity(occluding, around));
         irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
-        require_fitting_sums(settings, irsm.points_a_map, plan.bounces);
+        require_fitting_sums(settings, plan, irsm.points_a_map);
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(first.points_a_map);
         counts.occluders = splats ? points_in_all(first) : 0;
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
-        counts.reflectors = plan.bounces > 1 ? points_in_all(irsm) : 0;
+        IsmLayout most = irsm;
+        most.vpls = std::max(most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0);
+        counts.reflectors = plan.bounces > 1 || plan.world_bounces > 0 ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
-        points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull);
+        // What is on the hull hides no place of the scene from another, but the world from both.
+        counts.hull_hides = plan.world_occluded;
+        points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull,
+                          plan.world_bounces > 0);
+        out.triangles =
+            static_cast<int>(drop_hull ? points_->large_triangles_inside() : points_->large_triangles());
         mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
                       gpu_scene_.space().scale;
-        if (splats && points_->occluders() == 0 && points_->large_triangles() == 0) {
+        if (splats && points_->occluders() == 0 && out.triangles == 0) {
             plan.occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
@@ -142,8 +201,9 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
                     "there are no shadow maps to show: nothing stands between two places of the scene");
             }
         }
-        if (plan.bounces > 1 && points_->reflectors() == 0) {
-            plan.bounces = 1;
+        if ((plan.bounces > 1 || plan.world_bounces > 0) && points_->reflectors() == 0) {
+            plan.bounces = std::min(plan.bounces, 1);
+            plan.world_bounces = 0;
             plan.left_out.push_back({"further bounces", "no surface has an area, so none has a point"});
             plan.notes.emplace_back("no further bounces: no surface has an area");
         }
@@ -158,21 +218,44 @@ std::vector<Bounce> Renderer::prepare_bounces(const scene::Pose& pose, const Set
         report.atlas_width = first.atlas_width();
         report.atlas_height = first.atlas_height();
     }
-    std::vector<Bounce> out;
-    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
-        const IsmLayout layout = ism_layout(settings, bounce, first.points_a_map);
-        Bounce& added = out.emplace_back();
-        added.lights = vpl_set(layout);
-        report.vpls += layout.vpls;
-        const size_t occluders = needs_points ? points_->occluders() : 0;
-        added.lights.uniforms = uniforms_.add(ism_uniforms(layout, settings, occluders, mean_radius));
+    const size_t occluders = needs_points ? points_->occluders() : 0;
+    const size_t reflectors = needs_points ? points_->reflectors() : 0;
+    const double dense_area = needs_points ? points_->dense_reflector_area_m2() * gpu_scene_.space().scale *
+                                                 gpu_scene_.space().scale
+                                           : 0.0;
+    const auto make_bounce = [&](const IsmLayout& layout, const Settings& of) {
+        Bounce bounce;
+        bounce.lights = vpl_set(layout);
+        bounce.lights.uniforms = uniforms_.add(ism_uniforms(layout, of, occluders, mean_radius));
         IsmLayout maps = layout;
         maps.map_size = irsm.map_size;
         maps.points_a_map = irsm.points_a_map;
         maps.shadow_map_size = layout.map_size;
-        added.irsms = vpl_set(maps);
-        added.irsms.uniforms = uniforms_.add(
-            irsm_uniforms(maps, settings, needs_points ? points_->reflectors() : 0, occluders, mean_radius));
+        bounce.irsms = vpl_set(maps);
+        bounce.irsms.uniforms =
+            uniforms_.add(irsm_uniforms(maps, of, reflectors, occluders, mean_radius, dense_area));
+        report.vpls += layout.vpls;
+        return bounce;
+    };
+    for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
+        out.bounces.push_back(make_bounce(ism_layout(settings, bounce, first.points_a_map), settings));
+    }
+    if (plan.world_occluded) {
+        const IsmLayout layout = world_layout(settings, first.points_a_map);
+        const std::vector<gpu::GpuVpl> made =
+            world_lights(pose.world.color * pose.world.strength, layout,
+                         distant_maps(points_->ground(pose).rest, gpu_scene_.space()));
+        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
+        // are.
+        Settings disks = settings;
+        disks.splat = passes::Splat::disks;
+        disks.splat_irsms = false;
+        out.world = make_bounce(layout, disks);
+        out.world.lights.distant = true;
+    }
+    for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
+        out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
     }
     return out;
 }
@@ -192,8 +275,6 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing, const Moment* before) {
     FrameReport report;
-    FramePlan plan = plan_frame(scene_, pose, settings);
-    report.approximations = plan.approximations;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
         pool_.clear();
@@ -203,7 +284,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     gl::PassTimer timer(timing);
     const Moment still{pose, view};
     const Moment& previous = before != nullptr ? *before : still;
-    if (plan.motion) {
+    if (settings.show == Show::motion) {
         if (!previous_) {
             previous_ = std::make_unique<PreviousFrameSource>();
         }
@@ -212,20 +293,29 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     gpu_scene_.set_pose(pose);
     report.triangles = gpu_scene_.triangles_drawn();
 
-    // Everything the passes read from uniform blocks, uploaded at once.
-    uniforms_.clear();
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
                                                   settings.width, settings.height, gpu_scene_.space());
+    const Sight sight{gpu_scene_.bounds(),
+                      finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
+    FramePlan plan = plan_frame(scene_, pose, settings, &sight);
+    report.approximations = plan.approximations;
+
+    // Everything the passes read from uniform blocks, uploaded at once.
+    uniforms_.clear();
     const auto make_view = [&](const glm::mat4& clip_from_render, bool mirrored) {
         return passes::View{uniforms_.add(gpu::ViewUniforms{clip_from_render, glm::vec4(0.0F)}),
                             clip_from_render, mirrored};
     };
-    const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), false);
+    const bool mirrored = glm::determinant(glm::dmat3(view.world_from_camera)) < 0.0;
+    const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), mirrored);
 
+    const bool any_soft = std::find(plan.soft.begin(), plan.soft.end(), true) != plan.soft.end();
+    const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;
-    for (const int index : plan.lights) {
-        const scene::LightInstance& instance = pose.light_instances[static_cast<size_t>(index)];
+    for (size_t i = 0; i < plan.lights.size(); ++i) {
+        const auto index = static_cast<size_t>(plan.lights[i]);
+        const scene::LightInstance& instance = pose.light_instances[index];
         const LightSetup setup =
             set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
                          gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
@@ -240,11 +330,21 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
+        if (plan.soft[i]) {
+            pass.soft = soft_maps(
+                set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
+                                   gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
+                                   settings.shadow_samples, settings.soft_shadow_size),
+                uniforms_, make_view);
+        }
         lights.push_back(pass);
         fluxes.push_back(setup.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
-    const float scale = half_scale(fluxes, gpu_scene_.bounds());
+    const glm::vec3 radiance = pose.world.color * pose.world.strength;
+    const float scale = half_scale(
+        fluxes, gpu_scene_.bounds(),
+        plan.world_occluded ? std::numbers::pi * std::max({radiance.r, radiance.g, radiance.b}) : 0.0);
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples, scale));
     };
@@ -258,7 +358,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
-    const std::vector<Bounce> bounces = prepare_bounces(pose, settings, plan, report);
+    const LitBounces bounces = prepare_bounces(pose, settings, plan, report);
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -292,7 +392,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .gather_frames = gather_frames,
                     .patterns = patterns,
                     .points = points_needed(plan, settings) ? points_.get() : nullptr,
-                    .bounces = bounces,
+                    .bounces = bounces.bounces,
+                    .world = bounces.world,
+                    .world_lights = &world_lights_,
+                    .world_bounces = bounces.world_bounces,
+                    .triangles_inside = bounces.triangles,
                     .previous = previous_frame,
                     .target = graph.import_texture("color", color_),
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,

@@ -74,10 +74,16 @@ class Renderer {
     void reload_shaders() { programs_.clear(); }
 
   private:
+    struct LitBounces {
+        std::vector<Bounce> bounces;  // of the scene's lights
+        Bounce world;                 // its own lights, where they are planned
+        std::vector<Bounce> world_bounces;
+        int triangles = 0;  // large ones in the maps of lights within the scene
+    };
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
-    std::vector<Bounce> prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan,
-                                        FrameReport& report);
+    LitBounces prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan,
+                               FrameReport& report);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
@@ -90,6 +96,7 @@ class Renderer {
     gl::Texture color_;
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
+    gl::Buffer world_lights_;
 };
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.

@@ -18,6 +18,13 @@ const std::map<std::string, Visibility>& setting_names<Visibility>() {
 }
 
 template <>
+const std::map<std::string, DirectShadows>& setting_names<DirectShadows>() {
+    static const std::map<std::string, DirectShadows> names = {{"hard", DirectShadows::hard},
+                                                               {"vpl", DirectShadows::vpl}};
+    return names;
+}
+
+template <>
 const std::map<std::string, Splat>& setting_names<Splat>() {
     static const std::map<std::string, Splat> names = {
         {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};

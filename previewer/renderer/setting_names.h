@@ -10,7 +10,7 @@
 
 namespace bounce {
 
-// For Technique, Visibility, Splat, PullPush, Show and passes::RsmPattern.
+// For Technique, Visibility, DirectShadows, Splat, PullPush, Show and passes::RsmPattern.
 template <typename T>
 [[nodiscard]] const std::map<std::string, T>& setting_names();
 
@@ -28,6 +28,8 @@ template <>
 [[nodiscard]] const std::map<std::string, Technique>& setting_names<Technique>();
 template <>
 [[nodiscard]] const std::map<std::string, Visibility>& setting_names<Visibility>();
+template <>
+[[nodiscard]] const std::map<std::string, DirectShadows>& setting_names<DirectShadows>();
 template <>
 [[nodiscard]] const std::map<std::string, Splat>& setting_names<Splat>();
 template <>

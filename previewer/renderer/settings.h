@@ -19,6 +19,12 @@ enum class Visibility {
     shadow_maps,  // maps of the same size drawn from triangles: the reference, slow
 };
 
+// How lights with a size throw shadows.
+enum class DirectShadows {
+    hard,  // from their centres
+    vpl,   // from many places on them, a map each
+};
+
 using Splat = passes::Splat;
 using PullPush = passes::PullPush;
 
@@ -86,6 +92,7 @@ struct Settings {
     int bounces = 1;
     int vpls = 256;         // of the first bounce
     int bounce_vpls = 128;  // of each further one
+    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
     Visibility visibility = Visibility::ism;
     Splat splat = Splat::disks;
     bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper
@@ -102,8 +109,14 @@ struct Settings {
     bool near_field = true;      // what lies near the lights is gathered from the RSMs
     bool glossy_bounces = true;  // glossy lobes of lights and receivers count
 
-    bool antialias = true;   // outlines are smoothed as by Cycles' pixel filter
+    bool antialias = true;  // outlines are smoothed as by Cycles' pixel filter
+    // Frames whose mean the picture is (render_samples()); more than one filter outlines themselves, so
+    // antialias is off. A frame of several smooths the outlines of shadows over its part of a pixel alone.
+    int samples = 1;
     int shadow_size = 2048;  // a cube's faces have half of it
+    DirectShadows direct_shadows = DirectShadows::vpl;
+    int shadow_samples = 64;     // places on a light, a power of two
+    int soft_shadow_size = 512;  // of the map at each; a cube's faces have half of it
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait

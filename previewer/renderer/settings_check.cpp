@@ -31,6 +31,15 @@ std::string map_size_refusal(const char* setting, int size) {
     return out_of(setting, size, k_least_map_size, k_most_map_size, "give a number");
 }
 
+std::string shadow_samples_refusal(int samples) {
+    if (samples >= k_least_shadow_samples && samples <= k_most_shadow_samples &&
+        std::has_single_bit(static_cast<unsigned>(samples))) {
+        return {};
+    }
+    return fmt::format("--shadow-samples is {}; give a power of two from {} to {}", samples,
+                       k_least_shadow_samples, k_most_shadow_samples);
+}
+
 std::string ism_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--vpls", s.vpls, 1, k_most_vpls, "give a number"),
@@ -72,12 +81,11 @@ int fitting_size(int columns, int texture_size) {
     return size >= k_least_ism_size ? size : 0;
 }
 
-std::string atlas_refusal(const Settings& settings, int bounce, const gl::DeviceLimits& limits) {
-    const IsmLayout layout = ism_layout(settings, bounce, 0);
+std::string atlas_refusal(const Settings& settings, const char* lights, const IsmLayout& layout,
+                          const gl::DeviceLimits& limits) {
     if (layout.atlas_width() <= limits.texture_size) {  // no atlas is higher than wide
         return {};
     }
-    const char* lights = bounce == 1 ? "--vpls" : "--bounce-vpls";
     const int columns = limits.texture_size / settings.ism_size;
     const int size = fitting_size(layout.columns, limits.texture_size);
     return fmt::format(
@@ -97,7 +105,10 @@ std::string settings_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
-          map_size_refusal("--shadow-size", s.shadow_size), ism_refusal(s),
+           map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
+           map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
+           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
+           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"), ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
                               : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
         if (!refusal.empty()) {
@@ -122,9 +133,16 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
     if (refusal.empty()) {
         refusal = too_large("--shadow-size", settings.shadow_size);
     }
+    if (refusal.empty() && settings.direct_shadows == DirectShadows::vpl) {
+        refusal = too_large("--soft-shadow-size", settings.soft_shadow_size);
+    }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;
     for (int bounce = 1; maps && refusal.empty() && bounce <= settings.bounces; ++bounce) {
-        refusal = atlas_refusal(settings, bounce, limits);
+        refusal = atlas_refusal(settings, bounce == 1 ? "--vpls" : "--bounce-vpls",
+                                ism_layout(settings, bounce, 0), limits);
+    }
+    if (refusal.empty() && settings.world_vpls > 0) {
+        refusal = atlas_refusal(settings, "--world-vpls", world_layout(settings, 0), limits);
     }
     return refusal;
 }

@@ -11,10 +11,11 @@
 
 namespace bounce::viewer {
 
-// One of some sizes, 0 by the name of automatic; true where another was chosen.
+// One of some sizes, 0 by a name of its own; true where another was chosen.
 template <size_t N>
-bool choose_size(const char* label, const std::array<int, N>& sizes, int& value) {
-    const auto name = [](int size) { return size == 0 ? std::string("automatic") : fmt::format("{}", size); };
+bool choose_size(const char* label, const std::array<int, N>& sizes, int& value,
+                 const char* zero = "automatic") {
+    const auto name = [&](int size) { return size == 0 ? std::string(zero) : fmt::format("{}", size); };
     bool changed = false;
     if (ImGui::BeginCombo(label, name(value).c_str())) {
         for (const int size : sizes) {

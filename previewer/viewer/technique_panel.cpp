@@ -88,7 +88,16 @@ void technique_section(ViewState& state, PanelResult& result) {
     if (settings.technique != Technique::direct) {
         changed |= choose_size("RSM size", std::array{0, 64, 128, 256, 512, 1024, 2048}, settings.rsm_size);
     }
+    changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
+                           settings.world_vpls, "not occluded");
     changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
+    changed |= choose("shadows", std::array{"hard", "soft"}, settings.direct_shadows);
+    if (settings.direct_shadows == DirectShadows::vpl) {
+        changed |=
+            choose_size("shadow samples", std::array{8, 16, 32, 64, 128, 256}, settings.shadow_samples);
+        changed |=
+            choose_size("soft map size", std::array{128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
+    }
     int scale = state.render_divisor == 1 ? 0 : state.render_divisor == 2 ? 1 : 2;
     if (choose("render scale", std::array{"1", "1/2", "1/4"}, scale)) {
         state.render_divisor = 1 << scale;

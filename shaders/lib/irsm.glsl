@@ -55,8 +55,9 @@ int source_rows() {
     return 1;
 }
 
-// Solid angle from the light of the area that the point stands for. Points are samples of the surfaces' area, so that in
-// the mean A cos / d^2 is right however near they are; only single ones are kept from outshining whole maps.
+// Solid angle from the light (of one at infinity: the area across its rays) of the area that the point stands for.
+// Points are samples of the surfaces' area, so that in the mean A cos / d^2 is right however near they are; only single
+// ones are kept from outshining whole maps.
 float texel_measure(ivec2 texel, PixelLight p) {
     return min(max(-dot(p.normal, p.from_light), 0.0) * p.area / p.squared_distance, 32.0 * PI);
 }
@@ -83,9 +84,14 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
     uvec4 textures = point_materials[place];
     GpuMaterial m = materials[surfaces[textures.x].ids.x];
     GpuVpl vpl = vpls[map];
+#ifdef DISTANT
+    p.squared_distance = 1.0;
+    p.from_light = vpl.normal.xyz;
+#else
     vec3 d = point.position - vpl.position.xyz;
     p.squared_distance = max(dot(d, d), 1e-20);
     p.from_light = d * inversesqrt(p.squared_distance);
+#endif
     p.position = point.position;
     p.normal = dot(point.normal, p.from_light) > 0.0 ? -point.normal : point.normal;
     vec3 root = vec3(textures.y & 1023u, textures.y >> 10 & 1023u, textures.y >> 20 & 1023u) / 1023.0;
@@ -98,25 +104,42 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
         p.specular = 0.0;
     }
     p.disney = m.flags.x == DIFFUSE_DISNEY;
+#ifdef DISTANT
+    const float cos_out = 1.0;
+    p.arriving = vpl.intensity.rgb;
+#else
     float cos_out = max(dot(vpl.normal.xyz, p.from_light), 0.0);
     p.arriving = vpl_intensity(vpl, p.from_light, cos_out, 0.0) * cos_out;
+#endif
     p.profile = 1.0;
     p.area = PI * point.radius * point.radius * ism.splat.x;
 #ifndef SPLATTED
     float cos_in = -dot(p.normal, p.from_light);
     bool hit = cos_out > 0.0 && cos_in > 0.0 && p.area > 0.0;
-#ifdef VISIBILITY
+#if defined(VISIBILITY) && defined(DISTANT)
+    hit = hit && distant_visibility(vpl, p.position, float(ism.points.z)) > 0.0;
+#elif defined(VISIBILITY)
     hit = hit && vpl_visibility(vpl, p.from_light, sqrt(p.squared_distance), cos_out, cos_in, float(ism.points.z)) > 0.0;
 #endif
 #endif
     return hit;
 }
 
-// What a texel counts for: the flux it reflects.
+// The part of its light that may matter: points are thinned where little of what they send reaches anything
+// (scene/points/point_set.h), and each then stands for so much more area.
+float reaching_part(PixelLight p) {
+#ifdef SPLATTED
+    return 1.0;
+#else
+    return ism.splat.y > 0.0 ? min(ism.splat.y / max(p.area, 1e-30), 1.0) : 1.0;
+#endif
+}
+
+// What a texel counts for: the flux it reflects, as far as that may matter.
 float texel_importance(ivec2 texel, int layer) {
     PixelLight p;
     bool hit = load_pixel_light(texel, layer, p);
-    return hit ? importance_density(p.color, p.metallic, p.arriving) * texel_measure(texel, p) : 0.0;
+    return hit ? importance_density(p.color, p.metallic, p.arriving) * texel_measure(texel, p) * reaching_part(p) : 0.0;
 }
 
 #endif

@@ -7,13 +7,24 @@
 //                 64ths, 8 bits each
 // A plane's 1/distance is linear in the map to first order, so a receiver is compared with the surface where its own
 // ray meets it: a surface does not hide itself, however steep it stands, and nothing leaks at its foot.
+//
+// DISTANT: maps of lights at infinity, orthographic along the light's way: a cube around what may hide the light
+// (renderer/world_lights.h). A texel:
+//   high 16 bits  depth of the nearest surface at the texel's centre along that way, over the cube
+//   low 16 bits   how it changes by a step of one texel along s and t, over the texel's width, in 16ths, 8 bits each
+// A plane's depth is linear in the map, so the comparison is exact. A receiver may lie beyond the cube: behind it, what
+// stands in the cube hides it all the same; beside it, nothing does.
 #ifndef LIB_ISM
 #define LIB_ISM
 
 #include "lib/paraboloid.glsl"
 #include "lib/vpl.glsl"
 
+#ifdef DISTANT
+const uint ISM_EMPTY = 0xffff0000u;
+#else
 const uint ISM_EMPTY = 0x7bff0000u;  // the largest finite half
+#endif
 
 // A plane nearer to a light than this, in render units (the scene's diagonal is 1), is the light's own surface.
 const float LEAST_PLANE_DISTANCE = 1e-4;
@@ -45,6 +56,33 @@ bool ism_lit(uint bits, float distance, vec2 from_center) {
     float nearest = unpackHalf2x16(bits).y;
     vec2 slope = vec2(int(bits << 24) >> 24, int(bits << 16) >> 24) / 64.0;
     return distance * (1.0 + dot(slope, from_center)) <= nearest;
+}
+
+// Half the width and depth of a distant light's map, render units.
+float distant_reach(GpuVpl vpl) {
+    return vpl.tangent.w;
+}
+
+// As pack_ism() and ism_lit(), of distant lights. depth: along the light's way from the middle of its map, and slope, its
+// derivatives along s and t, in units of the map's reach; size: texels a side of the map.
+uint pack_distant(float depth, vec2 slope, float size) {
+    float texel_size = 2.0 / size;
+    ivec2 steps = ivec2(clamp(round(slope * 16.0), -127.0, 127.0));
+    // What rounding may take: half a step of each slope at a texel's corner. A plane steeper than what 8 bits hold must
+    // not hide itself either.
+    vec2 missing = max(abs(slope) - 127.0 / 16.0, vec2(0.0));
+    depth += texel_size * (1.0 / 32.0 + 0.5 * (missing.x + missing.y));
+    // What lies before the map hides all that is in it.
+    steps = depth < -1.0 ? ivec2(0) : steps;
+    uint bits = uint(clamp(ceil((0.5 * depth + 0.5) * 65535.0), 0.0, 65534.0)) << 16 | uint(steps.x & 0xff) |
+                uint(steps.y & 0xff) << 8;
+    return depth > 1.0 ? ISM_EMPTY : bits;
+}
+
+bool distant_lit(uint bits, float depth, vec2 from_center, float size) {
+    vec2 slope = vec2(int(bits << 24) >> 24, int(bits << 16) >> 24) / 16.0;
+    float nearest = float(bits >> 16) / 65535.0 * 2.0 - 1.0;
+    return bits == ISM_EMPTY || depth <= nearest + dot(slope, from_center) * (2.0 / size);
 }
 
 ivec2 ism_origin(int map) {

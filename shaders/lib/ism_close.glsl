@@ -19,6 +19,39 @@ const int CLOSE_REACH = 3;
 // behind them lies farther off by more.
 const float CLOSE_TOLERANCE = 0.05;
 
+#ifdef DISTANT
+// Depths from the front of the map, in units of its reach; what holds for a part of a distance above holds for a part of
+// the reach here.
+const float CLOSE_FARTHEST = 2.0;
+
+float own_distance(uint bits) {
+    return bits == ISM_EMPTY ? 1e30 : float(bits >> 16) / 65535.0 * 2.0;
+}
+
+float tolerance_at(float distance) {
+    return CLOSE_TOLERANCE;
+}
+
+float plane_beside(uint bits, float from, bool along_s) {
+    float slope = float(along_s ? int(bits << 24) >> 24 : int(bits << 16) >> 24) / 16.0;
+    float rise = slope * from * 2.0 / float(MAP_SIZE);
+    return bits == ISM_EMPTY || abs(rise) > 0.5 ? 1e30 : own_distance(bits) + rise;
+}
+
+uint pack_closed(float distance, uint plane_bits) {
+    return uint(clamp(ceil(0.5 * distance * 65535.0), 0.0, 65534.0)) << 16 | (plane_bits & 0xffffu);
+}
+#else
+const float CLOSE_FARTHEST = 60000.0;
+
+float own_distance(uint bits) {
+    return unpackHalf2x16(bits).y;
+}
+
+float tolerance_at(float distance) {
+    return CLOSE_TOLERANCE * distance;
+}
+
 // Distance of a texel's plane `from` texels beside its centre; infinite where it has none, or one so steep that it says
 // nothing so far off.
 float plane_beside(uint bits, float from, bool along_s) {
@@ -27,6 +60,12 @@ float plane_beside(uint bits, float from, bool along_s) {
     float rise = 1.0 + slope * from;
     return bits == ISM_EMPTY || abs(slope * from) > 0.5 ? 1e30 : nearest / rise;
 }
+
+// The slope is that of the texel that shows the plane.
+uint pack_closed(float distance, uint plane_bits) {
+    return packHalf2x16(vec2(0.0, distance)) | (plane_bits & 0xffffu);
+}
+#endif
 
 // The nearest plane within reach on one side, at the texel itself. side: -1 or 1.
 float plane_on_side(ivec2 texel, ivec2 axis, int side, out uint bits) {
@@ -46,13 +85,13 @@ uint closed_texel(ivec2 texel) {
     uint own = LOAD_CLOSE(texel);
     // Most texels have nothing nearer beside them and are done. A loop, because there are drivers that walk through
     // branches whether they are taken or not (llvmpipe), but none that walk through loops.
-    float beside = 65504.0;
+    float beside = 1e30;
     for (int i = 0; i < 4; ++i) {
         ivec2 axis = i < 2 ? ivec2(1, 0) : ivec2(0, 1);
         uint bits = LOAD_CLOSE(clamp(texel + ((i & 1) * 2 - 1) * axis, ivec2(0), ivec2(MAP_SIZE - 1)));
-        beside = min(beside, unpackHalf2x16(bits).y);
+        beside = min(beside, own_distance(bits));
     }
-    bool bare = beside * (1.0 + CLOSE_TOLERANCE) < unpackHalf2x16(own).y;
+    bool bare = beside + tolerance_at(beside) < own_distance(own);
     float farthest = 0.0;
     float nearest = 1e30;
     uint plane_bits = ISM_EMPTY;
@@ -63,10 +102,10 @@ uint closed_texel(ivec2 texel) {
         farthest = max(farthest, distance);
         nearest = min(nearest, distance);
     }
-    bool agree = bare && farthest - nearest < CLOSE_TOLERANCE * farthest && farthest < 60000.0;
+    bool agree = bare && farthest - nearest < tolerance_at(farthest) && farthest < CLOSE_FARTHEST;
     // Set back by as much as the planes may differ: where the surface bulges it lies behind all of them, and must not be
     // hidden from the light by what closes it. The slope is the farthest one's: planes that agree have about the same.
-    uint plane = packHalf2x16(vec2(0.0, farthest * (1.0 + CLOSE_TOLERANCE))) | (plane_bits & 0xffffu);
+    uint plane = pack_closed(farthest + tolerance_at(farthest), plane_bits);
     return agree ? min(own, plane) : own;
 }
 

@@ -26,4 +26,15 @@ float vpl_visibility(GpuVpl vpl, vec3 w, float distance, float cos_out, float co
     return ism_lit(bits, distance - bias, at - vec2(texel) - 0.5) ? 1.0 : 0.0;
 }
 
+// The same of a light at infinity, for a receiver at a place in render space.
+float distant_visibility(GpuVpl vpl, vec3 position, float size) {
+    vec3 p = vpl_from_render(vpl, position - vpl.position.xyz) / distant_reach(vpl);
+    uint origin = floatBitsToUint(vpl.bitangent.w);
+    vec2 at = clamp((p.xy * 0.5 + 0.5) * size, vec2(0.0), vec2(size - 0.01));
+    ivec2 texel = ivec2(at);
+    uint bits = imageLoad(ism_image, texel + ivec2(origin & 0xffffu, origin >> 16)).r;
+    bool beside = max(abs(p.x), abs(p.y)) > 1.0;
+    return beside || distant_lit(bits, p.z, at - vec2(texel) - 0.5, size) ? 1.0 : 0.0;
+}
+
 #endif

@@ -27,6 +27,17 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     s.center = vpl_from_render(vpl, p.position - vpl.position.xyz);
     s.normal = vpl_from_render(vpl, p.normal);
     s.flat_surface = p.flat_surface;
+#ifdef DISTANT
+    // In units of the map's reach.
+    float scale = 1.0 / distant_reach(vpl);
+    s.center *= scale;
+    s.radius2 *= scale * scale;
+    s.distance = s.center.z;
+    s.place = (s.center.xy * 0.5 + 0.5) * map_size;
+    s.reach = sqrt(s.radius2) * (0.5 * map_size);
+    s.half_side = s.reach * sqrt(0.25 * PI * abs(s.normal.z));
+    return s.radius2 > 0.0 && s.center.z < 1.0;
+#else
     float distance2 = dot(s.center, s.center);
     s.distance = sqrt(distance2);
     s.place = (paraboloid_project(s.center, s.distance) * 0.5 + 0.5) * map_size;
@@ -41,6 +52,7 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     bool apart = distance2 > s.radius2;
 #endif
     return s.center.z > 0.0 && s.radius2 > 0.0 && apart;
+#endif
 }
 
 // A map's index-th point: each map takes a block of the sequence.

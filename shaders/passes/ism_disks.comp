@@ -25,6 +25,28 @@ void draw_nearest(ivec2 origin, ivec2 texel, uint bits) {
 #endif
 }
 
+// What the disk's plane has at `at` (-1 to 1) of the map; false where the disk does not reach there.
+bool disk_texel(Splat s, float plane, float set_back, vec2 at, out uint bits) {
+#ifdef DISTANT
+    float steep = 1.0 / (abs(s.normal.z) > 1e-4 ? s.normal.z : 1e-4);
+    vec2 slope = -s.normal.xy * steep;
+    vec3 hit = vec3(at, 0.0);
+    hit.z = plane * steep + dot(slope, hit.xy);
+    vec3 off = hit - s.center;
+    bits = pack_distant(hit.z + set_back / max(abs(s.normal.z), 0.1), slope, float(MAP_SIZE));
+    return dot(off, off) <= s.radius2;
+#else
+    vec3 ray = paraboloid_direction(at);
+    float along = dot(s.normal, ray);
+    float t = plane / along;
+    vec3 off = ray * t - s.center;
+    // Along the ray a step back behind the plane is longer the more it slants; but a disk seen from its edge says
+    // little about where its surface is.
+    bits = pack_ism(t + set_back / max(abs(along), 0.1), plane_slope(s.normal, along, at, 2.0 / float(MAP_SIZE)));
+    return t > 0.0 && dot(off, off) <= s.radius2;
+#endif
+}
+
 void draw_disk(Splat s, ivec2 origin) {
     const float texel_size = 2.0 / float(MAP_SIZE);
     float plane = dot(s.normal, s.center);
@@ -36,15 +58,9 @@ void draw_disk(Splat s, ivec2 origin) {
     for (int i = 0; i < count; ++i) {
         ivec2 texel = low + ivec2(i % extent.x, i / extent.x);
         vec2 at = (vec2(texel) + 0.5) * texel_size - 1.0;
-        vec3 ray = paraboloid_direction(at);
-        float along = dot(s.normal, ray);
-        float t = plane / along;
-        vec3 off = ray * t - s.center;
-        if (t > 0.0 && dot(off, off) <= s.radius2) {
-            vec2 slope = plane_slope(s.normal, along, at, texel_size);
-            // Along the ray a step back behind the plane is longer the more it slants; but a disk seen from its
-            // edge says little about where its surface is.
-            draw_nearest(origin, texel, pack_ism(t + set_back / max(abs(along), 0.1), slope));
+        uint bits;
+        if (disk_texel(s, plane, set_back, at, bits)) {
+            draw_nearest(origin, texel, bits);
         }
     }
 }

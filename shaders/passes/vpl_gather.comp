@@ -20,6 +20,19 @@ layout(binding = IMG_OUT1, r16f) uniform image2D reach_image;  // near radius of
 #endif
 shared GpuVpl chunk[CHUNK];
 
+#ifdef DISTANT
+// A piece of the sky, whose light travels along the normal; position.w: its solid angle.
+void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight sum, inout float reach) {
+    vec3 w = vpl.normal.xyz;
+    float geometry = max(-dot(s.normal, w), 0.0);
+#ifdef VISIBILITY
+    float visibility = distant_visibility(vpl, s.position, map_size);
+#else
+    const float visibility = 1.0;
+#endif
+    add_vpl(vpl, r, w, 1.0, geometry, geometry * visibility, WIDENING * vpl.position.w, sum);
+}
+#else
 void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight sum, inout float reach) {
     vec3 d = s.position - vpl.position.xyz;
     float squared = max(dot(d, d), 1e-30);
@@ -48,6 +61,7 @@ void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight s
     float widening = WIDENING * vpl.position.w * inverse * inverse;
     add_vpl(vpl, r, w, max(cos_out, 0.0), max(cos_in, 0.0), geometry, widening, sum);
 }
+#endif
 
 void main() {
     if (gl_LocalInvocationIndex < uint(CHUNK)) {

@@ -11,6 +11,7 @@
 #define UBO_ISM 3
 #define UBO_MOTION 4
 #define UBO_DRAW 5
+#define UBO_SHADOW_VIEWS 6
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
@@ -20,6 +21,7 @@
 #define SSBO_PATTERN 3
 #define SSBO_PIXEL_LIST 4
 #define SSBO_NEAR_COUNT 3
+#define SSBO_TILE_FLAGS 3
 #define SSBO_DISPATCH 5
 #define SSBO_POINT_SOURCES 3
 #define SSBO_POINT_SURFACES 4

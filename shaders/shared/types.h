@@ -19,6 +19,10 @@
 #define PROFILE_SPOT_KHRONOS 3
 #define PROFILE_AREA 4
 
+// Maps of a soft shadow that one dispatch evaluates, unrolled: they are read from a uniform block at constant places,
+// which every driver turns into scalar loads.
+#define SHADOW_VIEW_CHUNK 8
+
 #define DIFFUSE_LAMBERT 0
 #define DIFFUSE_DISNEY 1
 
@@ -30,7 +34,7 @@ struct FrameUniforms {
     ivec4 size;             // width, height, low-resolution step (pixels), RSM samples
     vec4 interpolation;     // cos of the largest normal difference, largest plane distance in footprints,
                             // radius of a pixel's footprint at distance 1 (or its half size, orthographic), -
-    vec4 composite;         // film exposure, direct on, indirect on, scale of bounced light in half floats
+    vec4 composite;         // film exposure, direct on, smoothing of shadows in pixels, scale of bounced light in half floats
 };
 
 // One rasterised view: the camera or a face of a light.
@@ -47,9 +51,26 @@ struct GpuLight {
     vec4 bitangent;         // xyz unit, map +t; w: half extent of an orthographic map
     vec4 intensity;         // rgb: W/sr on the axis (sun: W/m^2), render-space units; w: squared radius
     vec4 cone;              // spot: cos of the half angle, 1/(blend width in cos) or 0 for a hard edge,
-                            // khronos: scale and offset of its angular attenuation
+                            // khronos: scale and offset of its angular attenuation; w, sun: tan of half its angle
     vec4 area;              // half sizes in render space; tan and normalisation of the spread
     vec4 map;               // RSM size, shadow map size, near plane (orthographic: depth range), area ellipse 0/1
+};
+
+// A map of a light's soft shadow: seen from one place on the light (sun: along one direction of its disk). A point of the
+// map's ray at (s, t) is origin + depth * (s right + t up + forward), or, of a sun, origin + s right + t up + depth forward.
+struct GpuShadowView {
+    vec4 origin;            // xyz render space; w: near plane (orthographic: depth range)
+    vec4 to_s;              // xyz: rows of the inverse of (right, up, forward); w: offset of the receiver in the
+                            // picture, pixels
+    vec4 to_t;              // w: the same, along y
+    vec4 to_depth;
+    vec4 right;
+    vec4 up;
+    vec4 forward;           // w: map size
+};
+
+struct ShadowViews {
+    GpuShadowView view[SHADOW_VIEW_CHUNK];
 };
 
 struct GpuMaterial {
@@ -100,8 +121,9 @@ struct IsmUniforms {
     ivec4 atlas;            // map size (texels), maps a row, maps, points a map
     ivec4 points;           // points in the sequence, place of its first one, reflective maps: size of
                             // the lights' shadow maps, -
-    vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii;
-                            // constant bias; bias by slope, in texel widths
+    vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii
+                            // (reflective maps: area of a point where they are dense, or 0); constant bias; bias by
+                            // slope, in texel widths
     ivec4 gather;           // interleave n, VPLs a subset, columns of a subset's cells, -
 };
 

@@ -250,11 +250,11 @@ def test_the_table_over_scenes(tmp_path):
     assert summary["scenes"][2]["ratio"] is None
 
 
-def test_the_table_knows_the_usual_points():
-    """Without a sweep the default settings are a point of another name; without a reference's noise there is no headroom."""
+def test_the_table_knows_the_default_settings_on_another_axis():
+    """Without the axis of presets the default settings are a point of another name; without a reference's noise there is no headroom."""
     examples = script("evaluate_examples")
     results = scene_results("a", 2.0, None)
-    results["curves"][2] = {"name": "ISM", "reference_engine": False, "peer": False, "points": [{"label": "256 VPLs", "seconds": 0.25, "relmse": 2e-3, "bias": 0.0}]}
+    results["curves"][2] = {"name": "Technique", "reference_engine": False, "peer": False, "points": [{"label": "ism", "seconds": 0.25, "relmse": 2e-3, "bias": 0.0}]}
     row = examples.row_of(results)
     assert row["seconds"] == 0.25 and math.isnan(row["ratio"]) and math.isnan(row["headroom"])
     assert "nan" in examples.table([row])

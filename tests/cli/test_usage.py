@@ -5,7 +5,7 @@ import json
 import gltf_scenes
 import pytest
 
-SUBCOMMANDS = ["render", "view", "info", "compare", "evaluate", "bench"]
+SUBCOMMANDS = ["render", "view", "info", "compare", "convert", "evaluate", "bench"]
 
 
 def refused(result, *words):

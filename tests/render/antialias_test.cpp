@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "render_fixture.h"
+#include "renderer/sampled_picture.h"
 
 namespace bounce::test {
 namespace {
@@ -142,6 +143,45 @@ TEST_F(Antialias, AShadowsOutlineIsFilteredToo) {
     EXPECT_LT(errors.smooth_rms, 0.35 * errors.rough_rms);
     EXPECT_LT(errors.worst, 0.3);
     EXPECT_NEAR(errors.bias, 0.0, 0.004);
+}
+
+// The mean of 64 frames by the same filter: noise of the samples alone is left, and no bias at all.
+TEST_F(Antialias, ManySamplesAreFilteredAsByCycles) {
+    scene::Scene scene = lit_from_above();
+    scene.lights[0].cast_shadow = false;
+    add_mesh_node(scene, add_square(scene, 6.0F, add_diffuse(scene, glm::vec3(0.1F))), glm::dmat4(1.0));
+    add_mesh_node(scene, add_square(scene, 2.0F, add_diffuse(scene)), turned(28.0, 1.0));
+    const CameraView camera = camera_from_above(4.0, 10.0);
+    Settings settings;
+    settings.technique = Technique::direct;
+    settings.antialias = false;
+    settings.width = settings.height = k_side * k_finer;
+    const Rendered fine = draw(scene, camera, settings);
+    settings.width = settings.height = k_side;
+    const Image rough = draw(scene, camera, settings).image;
+    const auto rms = [&](const Image& image) {
+        double sum = 0.0;
+        for (int y = 2; y < k_side - 2; ++y) {
+            for (int x = 2; x < k_side - 2; ++x) {
+                sum += std::pow(
+                    static_cast<double>(image.rgb[image.offset(x, y)]) - filtered(fine.image, x, y), 2);
+            }
+        }
+        return std::sqrt(sum) / (k_side - 4);
+    };
+    const auto samples = [&](int count) {
+        Renderer renderer(scene);
+        const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+        PictureMean mean;
+        settings.samples = count;
+        const FrameReport report =
+            render_samples(renderer, {pose, camera}, settings, gl::TimingMode::off, mean);
+        EXPECT_FALSE(report.executed.empty());
+        return mean.mean();
+    };
+    EXPECT_EQ(samples(1).rgb, rough.rgb) << "one sample is the frame as it is";
+    EXPECT_LT(rms(samples(4)), 0.6 * rms(rough));
+    EXPECT_LT(rms(samples(64)), 0.08 * rms(rough));  // 0.067 here; noise of one in sixty-four would be 0.125
 }
 
 TEST_F(Antialias, WhereOneSurfaceFillsThePictureNothingChanges) {

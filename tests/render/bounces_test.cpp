@@ -204,7 +204,7 @@ TEST_F(PointUpdates, OnlyWhatMovedIsMoved) {
     const auto pose_at = [&](double time) {
         const scene::Pose pose = scene::evaluate_pose(scene, time);
         gpu_scene.set_pose(pose);
-        store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false);
+        store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
     };
     pose_at(0.0);
     EXPECT_EQ(changed_points(store), 4096U) << "all of them are new";
@@ -244,9 +244,9 @@ TEST_F(PointUpdates, WhatDeformsIsMovedAlways) {
     counts.large_triangles = false;
     const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
     gpu_scene.set_pose(pose);
-    store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false);
+    store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
     store.update_done();
-    store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false);
+    store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
     EXPECT_GT(changed_points(store), 50U);
     EXPECT_LT(changed_points(store), 400U) << "the ball's alone";
 }
@@ -269,7 +269,7 @@ TEST_F(PointUpdates, LargeTrianglesAreMovedToo) {
     const auto pose_at = [&](double time) {
         const scene::Pose pose = scene::evaluate_pose(scene, time);
         gpu_scene.set_pose(pose);
-        store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, true);
+        store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, true, false);
     };
     pose_at(0.0);
     EXPECT_EQ(store.large_triangles(), 12U);

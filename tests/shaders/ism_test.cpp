@@ -175,6 +175,46 @@ TEST_F(IsmPlane, HidesWhatIsBehindAndNotWhatIsInFront) {
     }
 }
 
+// Part of random planes' places that a light at infinity lights, `behind` texel widths behind the plane.
+class IsmDistant : public IsmGlsl {
+  protected:
+    double lit(double size, double steepest, double behind) {
+        std::mt19937 random(7);
+        std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+        std::vector<glm::vec4> in;
+        constexpr int count = 4000;
+        for (int i = 0; i < count; ++i) {
+            const float angle = unit(random) * 6.2831853F;
+            const float steep = unit(random) * static_cast<float>(steepest);
+            in.emplace_back(1.8F * unit(random) - 0.9F, steep * std::cos(angle), steep * std::sin(angle),
+                            static_cast<float>(size));
+            in.emplace_back(unit(random), unit(random), static_cast<float>(behind * 2.0 / size), 0.0F);
+        }
+        int lit = 0;
+        for (const glm::vec4& out : run("ism_distant.comp", 2, 1, in, {{"DISTANT", "1"}})) {
+            lit += out.x > 0.5F ? 1 : 0;
+            EXPECT_EQ(out.y, 1.0F) << "an empty texel hides nothing";
+        }
+        return static_cast<double>(lit) / count;
+    }
+};
+
+TEST_F(IsmDistant, APlaneNeverHidesItselfHoweverSteep) {
+    for (const int size : {32, 64, 256}) {
+        EXPECT_EQ(lit(size, 7.9, 0.0), 1.0) << size;
+        EXPECT_EQ(lit(size, 100.0, 0.0), 1.0) << size << ", beyond what its slopes can say";
+    }
+}
+
+TEST_F(IsmDistant, HidesWhatIsBehind) {
+    // Rounding of slopes takes a sixteenth of a texel's width at most, that of depths 65,536 steps of 2.
+    for (const int size : {32, 64, 256}) {
+        EXPECT_EQ(lit(size, 7.9, 0.07), 0.0) << size;
+        EXPECT_EQ(lit(size, 7.9, 1.0), 0.0) << size;
+        EXPECT_EQ(lit(size, 7.9, -0.07), 1.0) << size;
+    }
+}
+
 // Depths of a map of `side` texels after pull-push; negative: a hole.
 class PullPush : public IsmGlsl {
   protected:

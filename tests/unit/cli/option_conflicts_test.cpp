@@ -41,6 +41,16 @@ TEST(OptionConflicts, OptionsOfAnotherTechnique) {
     EXPECT_EQ(conflict(samples, rsm), "");
 }
 
+TEST(OptionConflicts, HardShadowsHaveNoPlacesOnTheLight) {
+    const auto places = [](RenderOptions& o) { o.shadow_samples = 32; };
+    const auto size = [](RenderOptions& o) { o.soft_shadow_size = 256; };
+    const Settings hard{.direct_shadows = DirectShadows::hard};
+    EXPECT_THAT(conflict(places, hard),
+                AllOf(HasSubstr("--shadow-samples"), HasSubstr("--direct-shadows vpl")));
+    EXPECT_THAT(conflict(size, hard), HasSubstr("--soft-shadow-size"));
+    EXPECT_EQ(conflict(places, {}), "");
+}
+
 TEST(OptionConflicts, PresetAndTechniqueBothChooseTheTechnique) {
     const auto both = [](RenderOptions& o) {
         o.preset = "ism2008";

@@ -63,6 +63,15 @@ TEST(GivenReference, OfAnotherSceneIsRefused) {
                 HasSubstr("another scene or of another state of it: room.blend"));
 }
 
+TEST(GivenReference, AFinalRenderIsNone) {
+    const TemporaryFolder folder;
+    Reference reference;
+    reference.image = Image(4, 2);
+    write_image(folder / "final.exr", reference.image, final_attributes(reference, "room.blend", "hash"));
+    EXPECT_THAT(refusal((folder / "final.exr").string(), 1, 4, 2, 2),
+                HasSubstr("is the final render, by the scene's own light paths"));
+}
+
 TEST(GivenReference, OfAnotherProgramHasNoHeader) {
     const TemporaryFolder folder;
     test::write_constant(folder / "a.exr", 0.5F, 4, 2);

@@ -29,6 +29,17 @@ TEST(IsBlend, CapitalsAreNoOtherKind) {
         EXPECT_FALSE(is_blend(name)) << name;
 }
 
+TEST(NotExported, IsASentenceEach) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.gltf")
+        << R"({"extensions": {"BOUNCE_scene": {"unsupported": [{"object": "Cup", "what": "Glass BSDF"}, 7, {}]}}})";
+    EXPECT_EQ(gltf_not_exported(folder / "a.gltf"),
+              std::vector<std::string>{"not exported: Cup: Glass BSDF"});
+    std::ofstream(folder / "b.gltf") << "{}";
+    EXPECT_TRUE(gltf_not_exported(folder / "b.gltf").empty());
+    EXPECT_TRUE(gltf_not_exported(folder.path()).empty()) << "a folder is no file";
+}
+
 TEST(NamesCamera, IsWhatOurExporterWrites) {
     const test::TemporaryFolder folder;
     const std::pair<std::string, bool> cases[] = {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -58,15 +59,83 @@ TEST(ViewTransform, StandardIsExposureCurveGamma) {
     EXPECT_FLOAT_EQ(brighter.rgb[6], 1.0F);
 }
 
+// Sets a variable of the environment for as long as it lives.
+class Variable {
+  public:
+    Variable(const char* name, const std::string& value) : name_(name) {
+        if (const char* before = std::getenv(name)) {
+            before_ = before;
+        }
+        setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
 TEST(ViewTransform, FallsBackToStandardWithoutAConfiguration) {
     const TemporaryFolder folder;
-    const char* before = std::getenv("OCIO");
-    const std::string saved = before != nullptr ? before : "";
-    setenv("OCIO", (folder / "missing.ocio").c_str(), 1);
-    ViewTransform filmic;
-    filmic.view_transform = "Filmic";
-    EXPECT_EQ(to_display(greys({0.18F}), filmic).rgb, to_display(greys({0.18F}), {}).rgb);
-    saved.empty() ? unsetenv("OCIO") : setenv("OCIO", saved.c_str(), 1);
+    const Variable config("OCIO", (folder / "missing.ocio").string());
+    const Variable blender("BLENDER", (folder / "no blender").string());
+    const ViewTransform filmic{.view_transform = "Filmic", .exposure = 0.5F, .gamma = 1.2F};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(to_display(greys({0.18F}), filmic).rgb,
+              to_display(greys({0.18F}), {.exposure = 0.5F, .gamma = 1.2F}).rgb);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("missing.ocio"), std::string::npos) << said;
+    EXPECT_NE(said.find("Filmic"), std::string::npos) << said;
+}
+
+TEST(ViewTransform, AConfigurationThatCannotBeReadIsReplacedByTheNext) {
+    if (!find_color_config()) {
+        GTEST_SKIP() << "no OpenColorIO configuration of Blender here";
+    }
+    const ViewTransform filmic{.view_transform = "Filmic"};
+    const Image expected = to_display(greys({0.18F}), filmic);
+    const TemporaryFolder folder;
+    std::ofstream(folder / "broken.ocio") << "this is no configuration";
+    for (const char* name : {"broken.ocio", "missing.ocio"}) {
+        const Variable broken("OCIO", (folder / name).string());
+        testing::internal::CaptureStderr();
+        const Image shown = to_display(greys({0.18F}), filmic);
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_EQ(shown.rgb, expected.rgb);
+        EXPECT_NE(said.find(name), std::string::npos) << said;
+        EXPECT_NE(said.find("is used instead"), std::string::npos) << said;
+    }
+}
+
+TEST(ViewTransform, NamesThatAreNotThereAreToldAndReplaced) {
+    if (!find_color_config()) {
+        GTEST_SKIP() << "no OpenColorIO configuration of Blender here";
+    }
+    struct Case {
+        ViewTransform asked;
+        ViewTransform shown;
+        const char* named;
+    };
+    const Case cases[] = {
+        {{.view_transform = "Kodachrome", .exposure = 1.0F}, {.exposure = 1.0F}, "Kodachrome"},
+        {{.view_transform = "Filmic", .look = "Bleach", .gamma = 1.5F},
+         {.view_transform = "Filmic", .gamma = 1.5F},
+         "Bleach"},
+        {{.display_device = "Cathode", .view_transform = "Filmic"}, {.view_transform = "Filmic"}, "Cathode"},
+    };
+    for (const Case& one : cases) {
+        EXPECT_NE(unknown_name(one.asked).find(one.named), std::string::npos);
+        EXPECT_EQ(unknown_name(one.shown), "");
+        testing::internal::CaptureStderr();
+        const Image shown = to_display(greys({0.05F, 0.18F, 0.9F}), one.asked);
+        const std::string said = testing::internal::GetCapturedStderr();
+        EXPECT_NE(said.find(one.named), std::string::npos) << said;
+        EXPECT_EQ(shown.rgb, to_display(greys({0.05F, 0.18F, 0.9F}), one.shown).rgb);
+    }
+    EXPECT_NE(unknown_name({.view_transform = "Kodachrome"}).find("Standard, Filmic"), std::string::npos)
+        << "those that there are";
 }
 
 TEST(ViewTransform, FilmicIsMonotone) {

@@ -155,17 +155,32 @@ TEST(CameraView, BlenderOrthographicScaleIsTheFittedSide) {
     expect_near(project(view, 200, 100, {2.0, 0.0, -5.0}), {0.0, 0.0});
 }
 
-TEST(CameraView, AScaledOrMirroredCameraNodeSeesTheSamePicture) {
-    // Scale of a camera's node is ignored; its Y and Z say where it looks and which way is up.
+TEST(CameraView, AScaledCameraNodeSeesTheSamePictureAndAMirroredOneItsMirrorImage) {
+    // Scale of a camera's node is ignored, but for its sign.
     const CameraView plain = perspective(1.0);
     CameraView scaled = plain;
     scaled.world_from_camera = glm::scale(glm::dmat4(1.0), glm::dvec3(3.0, 0.2, 7.0));
     const glm::dvec3 point(0.3, -0.4, -2.0);
     expect_near(project(scaled, 160, 90, point), glm::dvec2(project(plain, 160, 90, point)), 1e-9);
     EXPECT_NEAR(project(scaled, 160, 90, point).z, project(plain, 160, 90, point).z, 1e-9);
-    // Under a mirrored parent the picture is not turned over.
+    // Below a mirrored parent the picture is mirrored, as Cycles draws it.
     scaled.world_from_camera = glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0));
-    expect_near(project(scaled, 160, 90, point), glm::dvec2(project(plain, 160, 90, point)), 1e-9);
+    expect_near(project(scaled, 160, 90, point),
+                glm::dvec2(-1.0, 1.0) * glm::dvec2(project(plain, 160, 90, point)), 1e-9);
+}
+
+TEST(CameraView, AnOffsetMovesTheFrameByPixels) {
+    for (const bool is_perspective : {true, false}) {
+        CameraView view = blender(scene::SensorFit::automatic);
+        view.camera.perspective = is_perspective;
+        view.camera.sensor->ortho_scale = 8.0F;
+        view.pixel_aspect = 1.5;
+        const glm::dvec3 point(0.3, -0.4, -2.0);
+        const glm::dvec2 before(project(view, 160, 90, point));
+        // Pixels look a quarter to the right and three quarters up, so what is seen goes the other way.
+        view.offset_px = {0.25, 0.75};
+        expect_near(project(view, 160, 90, point), before - glm::dvec2(2 * 0.25 / 160, 2 * 0.75 / 90), 1e-12);
+    }
 }
 
 TEST(CameraView, RenderSpaceDoesNotMoveThePicture) {

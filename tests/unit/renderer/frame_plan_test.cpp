@@ -352,14 +352,57 @@ TEST_F(FramePlanTest, TheWorldLightsTheShadedPictureAlone) {
     scene_.world.color = glm::vec3(0.5F);
     EXPECT_TRUE(plan().world_light);
     EXPECT_EQ(reason(plan(), "world light"), "");
-    EXPECT_THAT(plan().approximations, Contains(HasSubstr("world's light")));
     settings_.show = Show::indirect;
     EXPECT_FALSE(plan().world_light);
     EXPECT_EQ(reason(plan(), "world light"), "") << "not shown is not the same as black";
 }
 
+TEST_F(FramePlanTest, LightsStandForTheWorldOnlyWhereItShines) {
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("black"));
+    scene_.world.color = glm::vec3(0.5F);
+    settings_.technique = Technique::ism;
+    settings_.bounces = 2;
+    EXPECT_TRUE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 2);
+    EXPECT_EQ(reason(plan(), "world lights"), "");
+    EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("world's light"))));
+    settings_.show = Show::indirect;
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("layer"));
+}
+
+TEST_F(FramePlanTest, WithoutLightsTheWorldIsNotOccluded) {
+    scene_.world.color = glm::vec3(0.5F);
+    settings_.world_vpls = 0;
+    EXPECT_TRUE(plan().world_light);
+    EXPECT_FALSE(plan().world_occluded);
+    EXPECT_EQ(plan().world_bounces, 0);
+    EXPECT_THAT(reason(plan(), "world lights"), HasSubstr("asked for"));
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("world's light")));
+}
+
+TEST_F(FramePlanTest, TheWorldBouncesByVirtualPointLightsAlone) {
+    scene_.world.color = glm::vec3(0.5F);
+    for (const Technique technique : {Technique::direct, Technique::rsm}) {
+        settings_.technique = technique;
+        EXPECT_TRUE(plan().world_occluded);
+        EXPECT_EQ(plan().world_bounces, 0);
+        EXPECT_TRUE(plan().glossy) << "what reflects the world directly has both lobes";
+    }
+    settings_.technique = Technique::ism;
+    EXPECT_TRUE(plan().occluded) << "maps of its bounces";
+    settings_.visibility = Visibility::none;
+    EXPECT_FALSE(plan().occluded);
+    EXPECT_TRUE(plan().world_occluded) << "its own are another setting";
+}
+
 TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {
     scene_.lights[0].radius_m = 0.1F;
+    EXPECT_TRUE(plan().approximations.empty()) << "its shadow is soft";
+    settings_.direct_shadows = DirectShadows::hard;
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("light Key: drawn with a hard shadow")));
     settings_.show = Show::indirect;
     EXPECT_TRUE(plan().approximations.empty()) << "no shadow is drawn";
@@ -371,9 +414,45 @@ TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("blended transparency")));
 }
 
-TEST_F(FramePlanTest, ASoftLightWithoutShadowIsExact) {
+TEST_F(FramePlanTest, ALightWithASizeHasASoftShadow) {
+    add_light("Sun", scene::LightType::sun).angle_rad = 0.01F;
+    scene::Light& panel = add_light("Panel", scene::LightType::area);
+    panel.size_x_m = panel.size_y_m = 1.0F;
+    add_light("Point", scene::LightType::point).radius_m = 0.1F;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.soft, (std::vector<bool>{false, true, true, true}));
+    EXPECT_THAT(reason(p, "soft shadow: Key"), HasSubstr("no size"));
+    EXPECT_EQ(reason(p, "soft shadow: Sun"), "");
+}
+
+TEST_F(FramePlanTest, HardShadowsAreLeftAsAskedFor) {
+    scene_.lights[0].radius_m = 0.1F;
+    settings_.direct_shadows = DirectShadows::hard;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.soft, std::vector<bool>{false});
+    EXPECT_EQ(p.shadows, std::vector<bool>{true});
+    EXPECT_THAT(reason(p, "soft shadow: Key"), HasSubstr("asked for"));
+}
+
+TEST_F(FramePlanTest, APenumbraThatCannotBeSeenIsLeftOut) {
+    scene_.lights[0].type = scene::LightType::sun;
+    scene_.lights[0].angle_rad = 0.01F;
+    const scene::Pose pose = scene::evaluate_pose(scene_, 0.0);
+    // 0.01 over the square's diagonal of 1.41 m: 14 mm at most.
+    const Sight fine{scene::world_bounds(scene_, pose), 0.027};
+    const Sight coarse{scene::world_bounds(scene_, pose), 0.03};
+    EXPECT_EQ(plan_frame(scene_, pose, settings_, &fine).soft, std::vector<bool>{true});
+    const FramePlan p = plan_frame(scene_, pose, settings_, &coarse);
+    EXPECT_EQ(p.soft, std::vector<bool>{false});
+    EXPECT_EQ(p.shadows, std::vector<bool>{true});
+    EXPECT_THAT(reason(p, "soft shadow: Key"), HasSubstr("half a pixel"));
+    EXPECT_TRUE(p.approximations.empty());
+}
+
+TEST_F(FramePlanTest, ALightWithoutShadowHasNoPenumbra) {
     scene_.lights[0].radius_m = 0.1F;
     scene_.lights[0].cast_shadow = false;
+    EXPECT_EQ(plan().soft, std::vector<bool>{false});
     EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("hard shadow"))));
 }
 

@@ -46,11 +46,15 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--vpls", 1, 16384, [](Settings& s, int v) { s.vpls = v; });
     expect_range("--bounces", 1, 4, [](Settings& s, int v) { s.bounces = v; });
     expect_range("--bounce-vpls", 1, 16384, [](Settings& s, int v) { s.bounce_vpls = v; });
+    expect_range("--world-vpls", 0, 16384, [](Settings& s, int v) { s.world_vpls = v; });
     expect_range("--points", 0, 65536, [](Settings& s, int v) { s.ism_points = v; });
     expect_range("--pull-push-levels", 1, 3, [](Settings& s, int v) { s.pull_push_levels = v; });
     expect_range("--rsm-samples", 1, 32768, [](Settings& s, int v) { s.rsm_samples = v; });
     expect_range("--rsm-lowres", 2, 64, [](Settings& s, int v) { s.lowres_step = v; });
     expect_range("--shadow-size", 2, 16384, [](Settings& s, int v) { s.shadow_size = v; });
+    expect_range("--shadow-samples", 8, 256, [](Settings& s, int v) { s.shadow_samples = v; });
+    EXPECT_THAT(refusal([](Settings& s) { s.shadow_samples = 48; }), HasSubstr("power of two"));
+    expect_range("--soft-shadow-size", 2, 16384, [](Settings& s, int v) { s.soft_shadow_size = v; });
     EXPECT_THAT(refusal([](Settings& s) { s.rsm_size = 1; }), HasSubstr("--rsm-size is 1"));
     EXPECT_EQ(refusal([](Settings& s) { s.rsm_size = 0; }), "") << "automatic";
 }
@@ -115,6 +119,10 @@ TEST(LimitsRefusal, AnAtlasThatTheDriverCannotHoldNamesWhatToLower) {
     EXPECT_THAT(limits_refusal(settings, {.texture_size = 8192}), HasSubstr("lower --bounce-vpls to 1024"));
     settings.bounces = 1;
     EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "") << "no further bounce, no further maps";
+    settings = {.technique = Technique::direct, .world_vpls = 4096, .ism_size = 256};
+    EXPECT_THAT(limits_refusal(settings, {.texture_size = 8192}), HasSubstr("lower --world-vpls to 1024"));
+    settings.world_vpls = 0;
+    EXPECT_EQ(limits_refusal(settings, {.texture_size = 8192}), "");
 }
 
 TEST(LimitsRefusal, MapsOfLights) {

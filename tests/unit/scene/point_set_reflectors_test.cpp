@@ -128,5 +128,52 @@ TEST(PointSet, ReflectorsStayOnThePrimitivesOwnTriangles) {
     EXPECT_EQ(occluding.size(), 2U);
 }
 
+TEST(PointSet, ReflectorsAreThinnedFarFromABall) {
+    // A square of side 200 around a ball of radius 1 in its middle, and a small one inside the ball.
+    Scene scene;
+    place_mesh(scene, add_mesh(scene, square(200.0F)), glm::dmat4(1.0));
+    const int small = place_mesh(scene, add_mesh(scene, square(1.0F)), glm::dmat4(1.0));
+    const SurfaceParts parts = surface_parts(scene, k_all_animations);
+    Thinning thinning;
+    thinning.radius = 1.0;
+    thinning.scene = &scene;
+    for (const PointSurface& surface : parts.surfaces) {
+        thinning.surfaces.push_back(surface.node != small);
+        thinning.world_from_model.emplace_back(1.0);
+    }
+    PointCounts counts;
+    counts.reflectors_a_map = 256;
+    counts.reflectors = 256 * 64;
+    const PointSet set = sample_points(parts, none_on_hull(parts), counts, &thinning);
+    ASSERT_EQ(set.reflectors.size(), counts.reflectors);
+    double area = 0.0;  // that the points stand for
+    double on_small = 0.0;
+    double near = 0.0;  // of the large one within 10 of the middle
+    int points_near = 0;
+    for (const PointSample& point : set.reflectors) {
+        const auto c = corners(scene, parts, point.surface, point.triangle);
+        const double stands_for = static_cast<double>(point.share) * area_of(c);
+        const glm::dvec3 at = c[0] + (c[1] - c[0]) * static_cast<double>(point.second) +
+                              (c[2] - c[0]) * static_cast<double>(point.third);
+        area += stands_for;
+        if (parts.surfaces[point.surface].node == small) {
+            on_small += stands_for;
+            EXPECT_NEAR(stands_for / set.dense_reflector_area_m2, 1.0, 1e-4)
+                << "dense where nothing is thinned";
+        } else if (glm::length(at) < 10.0) {
+            near += stands_for;
+            ++points_near;
+        }
+        EXPECT_GE(stands_for, 0.999 * set.dense_reflector_area_m2);
+    }
+    // Each piece's points stand for its area up to the randomness of their number: most of the area is that
+    // of a few points far off, hence 10 % and not 1 %.
+    EXPECT_NEAR(area / 40001.0, 1.0, 0.1);
+    EXPECT_NEAR(on_small, 1.0, 0.02);
+    EXPECT_NEAR(near / (pi * 100.0), 1.0, 0.03);
+    EXPECT_GT(points_near, 0.75 * static_cast<double>(counts.reflectors)) << "and not a hundredth of them";
+    EXPECT_NEAR(set.reflector_area_m2, 40001.0, 1.0);
+}
+
 }  // namespace
 }  // namespace bounce::scene::test

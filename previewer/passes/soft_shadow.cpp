@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "passes/soft_shadow.h"
+
+#include <array>
+#include <bit>
+
+namespace bounce::passes {
+namespace {
+
+int tiles_along(int pixels) {
+    return (pixels + GROUP_2D - 1) / GROUP_2D;
+}
+
+TextureHandle add_maps(FrameGraph& graph, const PassContext& context, const LightPass& light) {
+    TextureHandle maps;
+    graph.add_pass("soft shadow maps: " + light.name, [&](PassBuilder& builder) {
+        const SoftMaps& soft = light.soft;
+        maps = builder.create_texture("soft shadow maps", {.format = GL_DEPTH_COMPONENT32F,
+                                                           .width = soft.size,
+                                                           .height = soft.size,
+                                                           .layers = soft.layers});
+        return [context, soft, maps](const PassResources& resources) {
+            const float far_depth = 0.0F;
+            for (const SoftMaps::Face& face : soft.faces) {
+                const gl::Framebuffer& target =
+                    resources.framebuffer({}, {&resources.texture(maps), face.layer});
+                target.bind();
+                glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
+                draw_scene(context, face.view, DrawKind::depth, "passes/shadow_map.frag", {});
+            }
+        };
+    });
+    return maps;
+}
+
+gl::Defines soft_defines(const LightPass& light) {
+    gl::Defines defines = light_defines(light);
+    defines["SOFT_KIND"] = std::to_string(light.soft.map_kind);
+    return defines;
+}
+
+void declare_maps(PassBuilder& builder, const GBuffer& gbuffer, TextureHandle maps) {
+    read_gbuffer(builder, gbuffer);
+    builder.read(gbuffer.geometric_normal);
+    builder.read(maps);
+}
+
+void bind_maps(const PassContext& context, const PassResources& resources, const GBuffer& gbuffer,
+               const LightPass& light, TextureHandle maps) {
+    context.uniforms.bind(UBO_FRAME, context.frame);
+    context.uniforms.bind(UBO_LIGHT, light.uniforms);
+    bind_gbuffer(resources, gbuffer);
+    resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
+    resources.texture(maps).bind(TEX_SHADOW);
+}
+
+BufferHandle add_probe(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                       const LightPass& light, TextureHandle maps) {
+    BufferHandle flags;
+    graph.add_pass("soft shadow probe: " + light.name, [&](PassBuilder& builder) {
+        declare_maps(builder, gbuffer, maps);
+        const int tiles = tiles_along(context.width) * tiles_along(context.height);
+        flags = builder.create_buffer("soft shadow flags", static_cast<size_t>(tiles) * sizeof(GLuint));
+        return [context, gbuffer, light, maps, flags](const PassResources& resources) {
+            constexpr GLuint none = 0;
+            glClearNamedBufferData(resources.buffer(flags).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                                   &none);
+            context.programs.compute("passes/soft_probe.comp", soft_defines(light)).use();
+            bind_maps(context, resources, gbuffer, light, maps);
+            resources.buffer(flags).bind_storage(SSBO_TILE_FLAGS);
+            // A block of pixels has one for each chunk, and a tile has whole blocks.
+            const int chunks = static_cast<int>(light.soft.chunks.size());
+            const int bits = std::bit_width(static_cast<unsigned>(chunks)) - 1;
+            const int width = 1 << ((bits + 1) / 2);
+            const int height = chunks / width;
+            for (int chunk = 0; chunk < chunks; ++chunk) {
+                context.uniforms.bind(UBO_SHADOW_VIEWS, light.soft.chunks[static_cast<size_t>(chunk)]);
+                glUniform4i(0, width, height, chunk % width, chunk / width);
+                glUniform1i(1, chunk * SHADOW_VIEW_CHUNK);
+                dispatch_2d((context.width + width - 1) / width, (context.height + height - 1) / height);
+            }
+            finish_writes();
+        };
+    });
+    return flags;
+}
+
+struct Tiles {
+    BufferHandle list;
+    BufferHandle counts;
+};
+
+Tiles add_tiles(FrameGraph& graph, const PassContext& context, const LightPass& light, BufferHandle flags) {
+    Tiles out;
+    graph.add_pass("soft shadow tiles: " + light.name, [&](PassBuilder& builder) {
+        builder.read(flags);
+        const int tiles = tiles_along(context.width) * tiles_along(context.height);
+        out.list = builder.create_buffer("soft shadow tiles", static_cast<size_t>(tiles) * sizeof(GLuint));
+        out.counts = builder.create_buffer("soft shadow dispatch", 4 * sizeof(GLuint));
+        return [context, flags, tiles, out](const PassResources& resources) {
+            constexpr std::array<GLuint, 4> none = {0, 0, 1, 0};
+            resources.buffer(out.counts).update(std::span<const GLuint>(none));
+            context.programs.compute("passes/soft_tiles.comp").use();
+            context.uniforms.bind(UBO_FRAME, context.frame);
+            resources.buffer(flags).bind_storage(SSBO_TILE_FLAGS);
+            resources.buffer(out.list).bind_storage(SSBO_PIXEL_LIST);
+            resources.buffer(out.counts).bind_storage(SSBO_DISPATCH);
+            glDispatchCompute((static_cast<GLuint>(tiles) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+            finish_writes();
+        };
+    });
+    return out;
+}
+
+TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                           const LightPass& light, TextureHandle maps, const Tiles& tiles) {
+    TextureHandle shares;
+    graph.add_pass("soft shadow: " + light.name, [&](PassBuilder& builder) {
+        declare_maps(builder, gbuffer, maps);
+        builder.read(tiles.list);
+        builder.read(tiles.counts);
+        shares = builder.create_texture(
+            "soft shadow", {.format = GL_RG32F, .width = context.width, .height = context.height});
+        return [context, gbuffer, light, maps, tiles, shares](const PassResources& resources) {
+            bind_maps(context, resources, gbuffer, light, maps);
+            resources.buffer(tiles.list).bind_storage(SSBO_PIXEL_LIST);
+            resources.buffer(tiles.counts).bind_storage(SSBO_DISPATCH);
+            resources.texture(shares).bind_image(IMG_OUT, GL_READ_WRITE);
+            glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(tiles.counts).id());
+            for (size_t chunk = 0; chunk < light.soft.chunks.size(); ++chunk) {
+                gl::Defines defines = soft_defines(light);
+                if (chunk == 0) defines["FIRST_CHUNK"] = "1";
+                context.programs.compute("passes/soft_penumbra.comp", defines).use();
+                context.uniforms.bind(UBO_SHADOW_VIEWS, light.soft.chunks[chunk]);
+                glUniform1i(1, static_cast<GLint>(chunk) * SHADOW_VIEW_CHUNK);
+                glDispatchComputeIndirect(0);
+                finish_writes();
+            }
+        };
+    });
+    return shares;
+}
+
+}  // namespace
+
+SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                           const LightPass& light) {
+    const TextureHandle maps = add_maps(graph, context, light);
+    SoftShadow out;
+    out.flags = add_probe(graph, context, gbuffer, light, maps);
+    const Tiles tiles = add_tiles(graph, context, light, out.flags);
+    out.shares = add_penumbra(graph, context, gbuffer, light, maps, tiles);
+    return out;
+}
+
+}  // namespace bounce::passes

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The world as virtual point lights at infinity (Ritschel et al. 2008, 5.1).
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gpu/shared_types.h"
+#include "renderer/ism_layout.h"
+
+namespace bounce {
+
+// What the shadow maps of lights at infinity show: a cube along the light's way. Render units.
+struct DistantMaps {
+    glm::vec3 center{0.0F};
+    float reach = 0.0F;  // half of the cube's side
+};
+
+// Lights that together are a world of one radiance (rgb, W/(m^2 sr)): layout.vpls directions, each for the
+// same solid angle, 4 pi in all; every subset of them is spread evenly over the sphere. normal is the way the
+// light travels, position the middle of its map, position.w the solid angle, tangent.w the map's reach,
+// intensity the radiance times the solid angle; maps stand in the layout's atlas.
+[[nodiscard]] std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout& layout,
+                                                    const DistantMaps& maps);
+
+}  // namespace bounce

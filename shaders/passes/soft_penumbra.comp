@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adds what one chunk of a light's maps shows of it, in the tiles that have a penumbra; a group a tile.
+#define READ_GBUFFER
+#include "lib/gbuffer.glsl"
+#include "lib/soft_receiver.glsl"
+
+layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
+layout(location = 1) uniform int first;  // map of the chunk
+layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
+    uint tiles[];
+};
+layout(std430, binding = SSBO_DISPATCH) readonly buffer DispatchBlock {
+    uvec4 dispatch;
+};
+layout(binding = IMG_OUT, rg32f) uniform image2D share_image;  // light that arrives, and that would without a shadow
+
+void main() {
+    uint group = gl_WorkGroupID.y * uint(MOST_GROUPS) + gl_WorkGroupID.x;
+    if (group >= dispatch.w) {
+        return;
+    }
+    uint tile = tiles[group];
+    ivec2 pixel = ivec2(tile & 0xffffu, tile >> 16) * GROUP_2D + ivec2(gl_LocalInvocationID.xy);
+    SoftReceiver r;
+    soft_receiver(min(pixel, frame.size.xy - 1), r);
+    vec2 sum = vec2(0.0);
+#define VIEW(i) sum += view_share(shadow_views.view[i], first + i, r);
+    VIEW(0) VIEW(1) VIEW(2) VIEW(3) VIEW(4) VIEW(5) VIEW(6) VIEW(7)
+    if (all(lessThan(pixel, frame.size.xy))) {
+#ifndef FIRST_CHUNK
+        sum += imageLoad(share_image, pixel).rg;
+#endif
+        imageStore(share_image, pixel, vec4(sum, 0.0, 0.0));
+    }
+}

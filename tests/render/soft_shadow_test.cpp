@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadows of lights with a size, against closed forms of what a half plane leaves of them.
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "render_fixture.h"
+
+namespace bounce::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int k_pixels = 129;
+constexpr double k_width = 0.6;         // of the frame, metres
+constexpr double k_edge_height = 0.25;  // of the half plane over the floor
+constexpr double k_light_height = 2.0;
+constexpr double k_light_x =
+    -0.8;  // on the side of the half plane, whose shadow then comes out from under it
+
+// Of one of 64 places, each of which is there or not, and an edge smoothed over a pixel: worst pixel and
+// mean.
+constexpr double k_worst = 0.03;
+// Places in a ball are even in three dimensions, and less so in the one across an edge.
+constexpr double k_worst_ball = 0.055;
+constexpr double k_mean = 0.006;
+
+class SoftShadows : public ::testing::Test {
+  protected:
+    void SetUp() override { require_context(); }
+
+    // A floor, and where asked for a half plane over its part x < 0 (four metres of it).
+    static scene::Scene scene_with(const scene::Light& light, const glm::dmat4& world_from_light,
+                                   bool occluder) {
+        scene::Scene scene;
+        scene.from_blender = true;
+        const int material = add_diffuse(scene);
+        add_mesh_node(scene, add_square(scene, 6.0F, material), glm::dmat4(1.0));
+        if (occluder) {
+            add_mesh_node(scene, add_square(scene, 4.0F, material),
+                          glm::translate(glm::dmat4(1.0), glm::dvec3(-2.0, 0.0, k_edge_height)));
+        }
+        add_light(scene, light, world_from_light);
+        return scene;
+    }
+    static Settings settings() {
+        Settings s;
+        s.width = s.height = k_pixels;
+        s.technique = Technique::direct;
+        return s;
+    }
+};
+
+glm::dmat4 overhead() {
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(k_light_x, 0.0, k_light_height));
+}
+
+scene::Light light_of(scene::LightType type) {
+    scene::Light light;
+    light.name = "light";
+    light.type = type;
+    light.power_w = 100.0F;
+    light.irradiance_w_m2 = 2.0F;
+    light.cone_angle_rad = 1.6F;
+    return light;
+}
+
+// What part of the light arrives, over the pixels right of the edge: against `expected` of the place.
+void expect_penumbra(const Rendered& shaded, const Rendered& lit,
+                     const std::function<double(double)>& expected, const std::string& what,
+                     double worst = k_worst) {
+    double sum = 0.0;
+    int count = 0;
+    bool umbra = false;
+    bool all_lit = false;
+    for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+        const double at = ((x + 0.5) / k_pixels - 0.5) * k_width;
+        const double got = shaded.at(x, k_pixels / 2).x / lit.at(x, k_pixels / 2).x;
+        const double want = expected(at);
+        EXPECT_NEAR(got, want, worst) << what << " at x = " << at;
+        sum += got - want;
+        ++count;
+        umbra |= want == 0.0;
+        all_lit |= want == 1.0;
+    }
+    EXPECT_NEAR(sum / count, 0.0, k_mean) << what;
+    EXPECT_TRUE(umbra && all_lit) << what << ": the frame holds the whole penumbra";
+}
+
+// Where the edge is seen from a place of the floor, at the light's height.
+double edge_at_light(double x) {
+    return -x * (k_light_height - k_edge_height) / k_edge_height;
+}
+
+// Form factor from a small floor piece below the origin to a parallel rectangle [0, x] x [0, y] at height 1,
+// odd in both (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3).
+double corner(double x, double y) {
+    const double a = std::sqrt(1.0 + x * x);
+    const double b = std::sqrt(1.0 + y * y);
+    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
+}
+
+TEST_F(SoftShadows, AHalfPlaneLeavesItsPartOfARectangle) {
+    scene::Light light = light_of(scene::LightType::area);
+    light.shape = scene::AreaShape::rectangle;
+    light.size_x_m = 0.9F;
+    light.size_y_m = 0.5F;
+    const CameraView camera = camera_from_above(k_width, 10.0);
+    const Rendered shaded = draw(scene_with(light, overhead(), true), camera, settings());
+    const Rendered lit = draw(scene_with(light, overhead(), false), camera, settings());
+    EXPECT_THAT(shaded.report.executed, Contains("soft shadow: light"));
+    const auto strip = [](double from, double to, double x) {
+        const double y = 0.25 / k_light_height;
+        return 2.0 * (corner((to - x) / k_light_height, y) - corner((from - x) / k_light_height, y));
+    };
+    expect_penumbra(
+        shaded, lit,
+        [&](double x) {
+            const double low = k_light_x - 0.45;
+            const double high = k_light_x + 0.45;
+            const double edge = std::clamp(edge_at_light(x), low, high);
+            return strip(edge, high, x) / strip(low, high, x);
+        },
+        "rectangle");
+}
+
+// Part of a unit disk's area beyond a chord at u.
+double beyond_chord(double u) {
+    return (std::acos(u) - u * std::sqrt(1.0 - u * u)) / pi;
+}
+
+TEST_F(SoftShadows, AHalfPlaneLeavesItsPartOfALightWithARadius) {
+    for (const auto type : {scene::LightType::point, scene::LightType::spot}) {
+        scene::Light light = light_of(type);
+        light.radius_m = 0.3F;
+        const CameraView camera = camera_from_above(k_width, 10.0);
+        const Rendered shaded = draw(scene_with(light, overhead(), true), camera, settings());
+        const Rendered lit = draw(scene_with(light, overhead(), false), camera, settings());
+        expect_penumbra(
+            shaded, lit,
+            [&](double x) {
+                // The angle between the edge and the light's middle, both seen from x, on a disk that faces
+                // x. The light is near: its half angle is 8 degrees, whose tangent and sine differ by a
+                // percent.
+                const double to_light = std::atan2(k_light_x - x, k_light_height);
+                const double to_edge = std::atan2(-x, k_edge_height);
+                const double distance = std::hypot(k_light_x - x, k_light_height);
+                const double u = std::clamp(std::tan(to_edge - to_light) * distance / 0.3, -1.0, 1.0);
+                return beyond_chord(u);
+            },
+            type == scene::LightType::point ? "point" : "spot", k_worst_ball);
+    }
+}
+
+TEST_F(SoftShadows, AHalfPlaneLeavesItsPartOfASun) {
+    scene::Light light = light_of(scene::LightType::sun);
+    light.angle_rad = static_cast<float>(12.0 * pi / 180.0);
+    const double tilt = 0.6;  // towards -x
+    const glm::dmat4 tilted = glm::rotate(glm::dmat4(1.0), -tilt, glm::dvec3(0.0, 1.0, 0.0));
+    const CameraView camera = camera_from_above(k_width, 10.0);
+    const Rendered shaded = draw(scene_with(light, tilted, true), camera, settings());
+    const Rendered lit = draw(scene_with(light, tilted, false), camera, settings());
+    const double radius = std::tan(0.5 * static_cast<double>(light.angle_rad));
+    expect_penumbra(
+        shaded, lit,
+        [&](double x) {
+            const double to_edge = std::atan2(-x, k_edge_height);
+            const double u = std::clamp(std::tan(to_edge + tilt) / radius, -1.0, 1.0);
+            // The floor's cosine over the disk: cos tilt + u radius sin tilt; its first moment beyond a chord
+            // is 2/3 (1 - u^2)^(3/2).
+            const double moment = 2.0 / (3.0 * pi) * std::pow(1.0 - u * u, 1.5);
+            return beyond_chord(u) + moment * radius * std::tan(tilt);
+        },
+        "sun");
+}
+
+TEST_F(SoftShadows, NothingShadowsItself) {
+    // One floor and no occluder: the picture is the one without shadows. Not a rounding more: where all maps
+    // see the light nothing is multiplied.
+    for (const auto type :
+         {scene::LightType::spot, scene::LightType::point, scene::LightType::sun, scene::LightType::area}) {
+        for (const double degrees : {0.0, 40.0, 75.0}) {
+            scene::Light light = light_of(type);
+            light.radius_m = 0.4F;
+            light.angle_rad = 0.1F;
+            light.size_x_m = 1.0F;
+            light.size_y_m = 0.3F;
+            light.shape = scene::AreaShape::ellipse;
+            const glm::dmat4 tilted =
+                glm::rotate(glm::dmat4(1.0), degrees * pi / 180.0, glm::dvec3(0.0, 1.0, 0.0));
+            const glm::dmat4 at = glm::translate(tilted, glm::dvec3(0.0, 0.0, 3.0));
+            const CameraView camera = camera_from_above(4.0, 10.0);
+            const Rendered with_shadow = draw(scene_with(light, at, false), camera, settings());
+            light.cast_shadow = false;
+            const Rendered without = draw(scene_with(light, at, false), camera, settings());
+            EXPECT_GT(without.mean(), 0.0);
+            EXPECT_EQ(with_shadow.image.rgb, without.image.rgb)
+                << "type " << static_cast<int>(type) << " at " << degrees << " degrees";
+        }
+    }
+}
+
+TEST_F(SoftShadows, ALightAmongWhatItLightsTakesACubeWithTheSamePenumbra) {
+    // A wall at the frame's edge reaches above the light, so that no one picture holds all that it lights.
+    for (const auto type : {scene::LightType::point, scene::LightType::area}) {
+        scene::Light light = light_of(type);
+        light.radius_m = 0.3F;
+        light.size_x_m = light.size_y_m = 0.5F;
+        const CameraView camera = camera_from_above(1.2, 10.0);
+        scene::Scene scene = scene_with(light, overhead(), true);
+        const glm::dmat4 upright = glm::rotate(glm::dmat4(1.0), 0.5 * pi, glm::dvec3(1.0, 0.0, 0.0));
+        add_mesh_node(scene, add_square(scene, 5.0F, 0),
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.59, 2.6)) * upright);
+        Settings fine = settings();
+        fine.soft_shadow_size = 1024;
+        fine.shadow_samples = 16;  // the same ones, in maps as fine
+        Settings few = settings();
+        few.shadow_samples = 16;
+        const Rendered want = draw(scene_with(light, overhead(), true), camera, few);
+        const Rendered got = draw(scene, camera, fine);
+        const double lit = want.at(k_pixels - 1, k_pixels / 2).x;
+        double sum = 0.0;
+        for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+            const double difference = got.at(x, k_pixels / 2).x - want.at(x, k_pixels / 2).x;
+            // Each of 16 places may fall to the other side of an edge.
+            EXPECT_NEAR(difference / lit, 0.0, 1.5 / 16.0) << "pixel " << x;
+            sum += difference / lit;
+        }
+        EXPECT_NEAR(sum / (0.5 * k_pixels), 0.0, k_mean) << static_cast<int>(type);
+    }
+}
+
+TEST_F(SoftShadows, AHardLightIsDrawnAsWithoutThem) {
+    for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
+        const scene::Light light = light_of(type);
+        const CameraView camera = camera_from_above(k_width, 10.0);
+        Settings hard = settings();
+        hard.direct_shadows = DirectShadows::hard;
+        const Rendered expected = draw(scene_with(light, overhead(), true), camera, hard);
+        const Rendered got = draw(scene_with(light, overhead(), true), camera, settings());
+        EXPECT_EQ(got.image.rgb, expected.image.rgb) << "type " << static_cast<int>(type);
+        EXPECT_EQ(got.report.executed, expected.report.executed);
+        EXPECT_THAT(got.report.executed, Not(Contains(HasSubstr("soft"))));
+    }
+}
+
+TEST_F(SoftShadows, APenumbraTooNarrowToBeSeenIsDrawnAsAHardShadow) {
+    scene::Light light = light_of(scene::LightType::sun);
+    light.angle_rad = 1e-4F;  // over the scene's nine metres less than a millimetre; pixels are nine
+    const CameraView camera = camera_from_above(k_width, 10.0);
+    const Rendered got = draw(scene_with(light, overhead(), true), camera, settings());
+    EXPECT_THAT(got.report.executed, Contains("shadow map: light"));
+    EXPECT_THAT(got.report.executed, Not(Contains(HasSubstr("soft"))));
+}
+
+}  // namespace
+}  // namespace bounce::test
