@@ -246,6 +246,12 @@ void RenderOptions::add_to(CLI::App& command) {
             "not bounce",
             k_most_vpls),
         std::to_string(Settings{}.world_vpls));
+    group.number(
+        "--emitter-vpls", emitter_vpls,
+        fmt::format("Virtual point lights that stand for emissive surfaces, each with a shadow map, in any "
+                    "technique, 0 to {}; 0: what emits is seen but lights nothing",
+                    k_most_vpls),
+        std::to_string(Settings{}.emitter_vpls));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
@@ -300,6 +306,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
     set(world_vpls, out.world_vpls);
+    set(emitter_vpls, out.emitter_vpls);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(near_field, out.near_field);

@@ -81,7 +81,8 @@ ordered_json settings_json(const Settings& s) {
         {"shadow_size", s.shadow_size},
         {"antialias", s.antialias},
         {"samples", s.samples},
-        {"world_vpls", s.world_vpls}};
+        {"world_vpls", s.world_vpls},
+        {"emitter_vpls", s.emitter_vpls}};
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;

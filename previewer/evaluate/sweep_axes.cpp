@@ -60,6 +60,8 @@ const std::vector<SweepAxis>& sweep_axes() {
          values("--vpls", {16, 32, 64, 128, 256, 512, 1024, 2048}, "{} VPLs")},
         {"world-vpls", "World lights", "lights at infinity that stand for the world: --world-vpls",
          values("--world-vpls", {0, 64, 256, 1024}, "{} world lights")},
+        {"emitter-vpls", "Emitters' lights", "virtual point lights that stand for emissive surfaces: --emitter-vpls",
+         values("--emitter-vpls", {0, 64, 256, 1024}, "{} emitter lights")},
         {"points", "Points", "points splatted into each map: --points",
          values("--points", {64, 256, 1024, 4096, 16384}, "{} points")},
         {"ism-size", "Map size", "side of each imperfect shadow map: --ism-size",

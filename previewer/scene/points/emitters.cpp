@@ -2,11 +2,12 @@
 #include "scene/points/emitters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <set>
 
-#include "scene/points/outline.h"
+#include "scene/emission.h"
 #include "scene/points/point_materials.h"
 #include "scene/points/sobol.h"
 
@@ -19,51 +20,8 @@ size_t at(int index) {
     return static_cast<size_t>(index);
 }
 
-double luminance(const glm::vec3& color) {
-    return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 const Primitive& primitive_of(const Scene& scene, const PointSurface& surface) {
     return scene.meshes[at(surface.mesh)].primitives[at(surface.primitive)];
-}
-
-// Materials that emit at some time: by their factor, or by an animation that may raise it.
-std::vector<bool> may_emit(const Scene& scene) {
-    std::vector<bool> out;
-    for (const Material& material : scene.materials) {
-        out.push_back(!material.unlit && luminance(material.emission) * material.emission_strength > 0.0);
-    }
-    for (const Animation& animation : scene.animations) {
-        for (const AnimationChannel& channel : animation.channels) {
-            const bool emits = channel.property == Property::material_emission ||
-                               channel.property == Property::material_emission_strength;
-            if (emits && !scene.materials[at(channel.index)].unlit) {
-                out[at(channel.index)] = true;
-            }
-        }
-    }
-    return out;
-}
-
-// Whether the surface has no border: each edge is run along once in each direction. Vertices at one place are
-// one.
-bool is_closed(const Primitive& primitive) {
-    std::map<std::tuple<float, float, float>, uint32_t> places;
-    std::vector<uint32_t> welded;
-    welded.reserve(primitive.positions.size());
-    for (const glm::vec3& p : primitive.positions) {
-        welded.push_back(
-            places.emplace(std::tuple(p.x, p.y, p.z), static_cast<uint32_t>(places.size())).first->second);
-    }
-    std::vector<glm::uvec3> triangles;
-    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const glm::uvec3 corners(welded[primitive.indices[i]], welded[primitive.indices[i + 1]],
-                                 welded[primitive.indices[i + 2]]);
-        if (corners.x != corners.y && corners.y != corners.z && corners.z != corners.x) {
-            triangles.push_back(corners);
-        }
-    }
-    return !triangles.empty() && find_outlines(triangles).empty();
 }
 
 PointSample middle_of(uint32_t surface, const glm::uvec3& triangle) {
@@ -102,7 +60,7 @@ Emitters::Emitters(const Scene& scene, const SurfaceParts& parts)
     for (size_t i = 0; i < triangles_.size(); ++i) {
         triangles_[i].texture = textures[i];
     }
-    std::erase_if(triangles_, [](const Triangle& triangle) { return !(luminance(triangle.texture) > 0.0); });
+    std::erase_if(triangles_, [](const Triangle& triangle) { return !(emitted_luminance(triangle.texture) > 0.0); });
 }
 
 double Emitters::area_m2(const Triangle& triangle) const {
@@ -112,18 +70,45 @@ double Emitters::area_m2(const Triangle& triangle) const {
     return (sums[triangle.index] - before) / sums.back() * part.area_m2;
 }
 
+std::vector<bool> Emitters::taken_by(std::span<const EmissivePanel> panels) const {
+    using Corners = std::array<uint32_t, 3>;
+    const auto corners = [](const glm::uvec3& t) {
+        Corners out{t.x, t.y, t.z};
+        std::sort(out.begin(), out.end());
+        return out;
+    };
+    std::vector<bool> out(triangles_.size(), false);
+    for (const EmissivePanel& panel : panels) {
+        std::set<Corners> own;
+        for (const glm::uvec3& triangle : panel.triangles) {
+            own.insert(corners(triangle));
+        }
+        for (size_t i = 0; i < triangles_.size(); ++i) {
+            const SurfacePart& part = parts_.parts[triangles_[i].part];
+            const PointSurface& surface = parts_.surfaces[part.surface];
+            out[i] = out[i] || (surface.node == panel.node && surface.instance == panel.instance &&
+                                surface.primitive == panel.primitive &&
+                                own.contains(corners(part.table->triangles[triangles_[i].index])));
+        }
+    }
+    return out;
+}
+
 std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
-                                            const std::vector<bool>& shown, size_t count) const {
+                                            const std::vector<bool>& shown, size_t count,
+                                            std::span<const EmissivePanel> panels) const {
+    const std::vector<bool> taken = taken_by(panels);
     // Fronts of all triangles, then backs, so that either side is stratified for itself.
     std::vector<double> cumulative;
     cumulative.reserve(2 * triangles_.size());
     double sum = 0.0;
     for (const bool back : {false, true}) {
-        for (const Triangle& triangle : triangles_) {
+        for (size_t i = 0; i < triangles_.size(); ++i) {
+            const Triangle& triangle = triangles_[i];
             const SurfacePart& part = parts_.parts[triangle.part];
             const int material = primitive_of(scene_, parts_.surfaces[part.surface]).material;
-            const bool sends = shown[part.surface] && (!back || triangle.both_sides);
-            sum += sends ? area_m2(triangle) * luminance(radiance[at(material)] * triangle.texture) : 0.0;
+            const bool sends = shown[part.surface] && (!back || triangle.both_sides) && !taken[i];
+            sum += sends ? area_m2(triangle) * emitted_luminance(radiance[at(material)] * triangle.texture) : 0.0;
             cumulative.push_back(sum);
         }
     }
@@ -148,6 +133,7 @@ std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
         sample.point.third = static_cast<float>(root * u.z);
         sample.point.share = static_cast<float>(sum / static_cast<double>(count) / weight);
         sample.point.flat = part.table->flat;
+        sample.area_m2 = area_m2(triangle) * static_cast<double>(sample.point.share);
         sample.back = entry >= triangles_.size();
         points.push_back(sample.point);
     }

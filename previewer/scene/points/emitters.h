@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/emissive_panels.h"
 #include "scene/points/point_set.h"
 #include "scene/points/texture_reader.h"
 
@@ -17,6 +18,7 @@ namespace bounce::scene {
 // A place on an emissive surface and the part of it that it stands for.
 struct EmitterSample {
     PointSample point;        // its share is that of its triangle's area, and may exceed 1
+    double area_m2 = 0.0;     // of that part
     bool back = false;        // sends to where the triangle turns clockwise
     glm::vec3 texture{1.0F};  // what the emission texture says there, linear; 1 without one
 };
@@ -33,11 +35,13 @@ class Emitters {
 
     // `count` samples in proportion to emitted power (luminance of the radiance times area), stratified over
     // all surfaces; none where nothing emits. Both sides of a surface send, as in Cycles; of a closed one
-    // that is not a cut-out only the outer side is sampled, as its inside sees nothing else. radiance: of
-    // each of the scene's materials at this pose, without its texture, W/(m^2 sr); shown: for each of the
-    // parts' surfaces. A radiance times a factor for all materials gives the same samples.
+    // that is not a cut-out only the outer side is sampled, as its inside sees nothing else. radiance: what
+    // decides the shares, one a material, without its texture, W/(m^2 sr); shown: for each of the parts'
+    // surfaces. A radiance times a factor for all materials gives the same samples.
+    // panels: left out, as something else draws their light.
     [[nodiscard]] std::vector<EmitterSample> sample(std::span<const glm::vec3> radiance,
-                                                    const std::vector<bool>& shown, size_t count) const;
+                                                    const std::vector<bool>& shown, size_t count,
+                                                    std::span<const EmissivePanel> panels = {}) const;
 
   private:
     struct Triangle {
@@ -47,6 +51,7 @@ class Emitters {
         bool both_sides;
     };
     [[nodiscard]] double area_m2(const Triangle& triangle) const;
+    [[nodiscard]] std::vector<bool> taken_by(std::span<const EmissivePanel> panels) const;
 
     const Scene& scene_;
     const SurfaceParts& parts_;
