@@ -252,6 +252,12 @@ void RenderOptions::add_to(CLI::App& command) {
                     "technique, 0 to {}; 0: what emits is seen but lights nothing",
                     k_most_vpls),
         std::to_string(Settings{}.emitter_vpls));
+    group.number(
+        "--emitter-panels", emitter_panels,
+        fmt::format("Sides of flat rectangles that emit evenly, those with the most light, which are drawn as "
+                    "area lights instead, 0 to {}",
+                    k_most_emitter_panels),
+        std::to_string(Settings{}.emitter_panels));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
@@ -307,6 +313,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(bounce_vpls, out.bounce_vpls);
     set(world_vpls, out.world_vpls);
     set(emitter_vpls, out.emitter_vpls);
+    set(emitter_panels, out.emitter_panels);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(near_field, out.near_field);

@@ -82,7 +82,8 @@ ordered_json settings_json(const Settings& s) {
         {"antialias", s.antialias},
         {"samples", s.samples},
         {"world_vpls", s.world_vpls},
-        {"emitter_vpls", s.emitter_vpls}};
+        {"emitter_vpls", s.emitter_vpls},
+        {"emitter_panels", s.emitter_panels}};
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;

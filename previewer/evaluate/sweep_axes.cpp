@@ -62,6 +62,8 @@ const std::vector<SweepAxis>& sweep_axes() {
          values("--world-vpls", {0, 64, 256, 1024}, "{} world lights")},
         {"emitter-vpls", "Emitters' lights", "virtual point lights that stand for emissive surfaces: --emitter-vpls",
          values("--emitter-vpls", {0, 64, 256, 1024}, "{} emitter lights")},
+        {"emitter-panels", "Emissive panels", "sides of emissive rectangles that are drawn as area lights: --emitter-panels",
+         values("--emitter-panels", {0, 1, 2, 4}, "{} panels")},
         {"points", "Points", "points splatted into each map: --points",
          values("--points", {64, 256, 1024, 4096, 16384}, "{} points")},
         {"ism-size", "Map size", "side of each imperfect shadow map: --ism-size",

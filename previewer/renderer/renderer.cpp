@@ -160,6 +160,9 @@ Renderer::~Renderer() = default;
 constexpr double k_panel_offset = 1e-6;
 
 std::optional<scene::PanelPose> Renderer::light_panels(const scene::Pose& pose, const Settings& settings) {
+    if (settings.emitter_vpls == 0 || settings.show == Show::motion) {
+        return std::nullopt;
+    }
     if (settings.emitter_panels != most_panels_) {
         panels_ = scene::find_emissive_panels(scene_, static_cast<size_t>(settings.emitter_panels));
         most_panels_ = settings.emitter_panels;
@@ -352,7 +355,7 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
     const Sight sight{gpu_scene_.bounds(),
                       finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
     FramePlan plan = plan_frame(scene_, pose, settings, &sight);
-    if (plan.emitters && panels_.all && panels.size() == panels_.panels.size()) {
+    if (plan.emitters && !panels.empty() && panels_.all && panels.size() == panels_.panels.size()) {
         plan.emitters = plan.emitters_occluded = false;
         plan.emitter_bounces = 0;
         plan.occluded = plan.occluded && (plan.vpls || plan.world_bounces > 0);

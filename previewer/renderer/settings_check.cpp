@@ -109,7 +109,8 @@ std::string settings_refusal(const Settings& s) {
            map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
            out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
            out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
-           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"), ism_refusal(s),
+           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
+           out_of("--emitter-panels", s.emitter_panels, 0, k_most_emitter_panels, "give a number"), ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
                               : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
         if (!refusal.empty()) {

@@ -22,7 +22,7 @@ size_t at(int index) {
 }
 
 glm::dvec3 corner(const Primitive& primitive, uint32_t vertex) {
-    return {primitive.positions[vertex]};
+    return glm::dvec3(primitive.positions[vertex]);
 }
 
 glm::dvec3 across(const Primitive& primitive, const glm::uvec3& t) {

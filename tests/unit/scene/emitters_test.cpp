@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "point_samples.h"
+#include "scene/emission.h"
 
 namespace bounce::scene::test {
 namespace {
@@ -99,6 +100,37 @@ TEST(Emitters, NothingThatIsDarkOrHiddenIsSampled) {
     EXPECT_TRUE(e.sample(64).empty());
     for (Material& material : e.scene.materials) material.emission = glm::vec3(0.0F);
     EXPECT_TRUE(Emitters(e.scene, e.parts).empty());
+}
+
+TEST(Emitters, PanelsAreLeftToOthers) {
+    Emitting e;
+    const EmissivePanels found = find_emissive_panels(e.scene, 64);
+    ASSERT_EQ(found.panels.size(), 8U) << "two sheets and six faces";
+    EXPECT_TRUE(found.all);
+    const std::vector<bool> shown(e.parts.surfaces.size(), true);
+    const Emitters emitters(e.scene, e.parts);
+    EXPECT_TRUE(emitters.sample(e.radiance, shown, 64, found.panels).empty());
+    const auto rest = emitters.sample(e.radiance, shown, 64, std::span(found.panels).first(1));
+    ASSERT_EQ(rest.size(), 64U);
+    for (const EmitterSample& s : rest) {
+        EXPECT_NE(primitive_of(e.scene, e.parts, s.point.surface).material, 1) << "the larger sheet";
+    }
+}
+
+TEST(Emitters, SamplesAreSpreadByWhatSurfacesSendAtTheirBrightest) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[0].emission = scene.materials[1].emission = glm::vec3(2.0F);
+    scene.materials[1].unlit = true;
+    Animation animation;
+    animation.samplers.push_back({Interpolation::linear, 1, {0.0F, 0.5F, 1.0F}, {0.0F, 7.0F, 0.0F}});
+    animation.channels.push_back({Property::material_emission_strength, 0, 0});
+    animation.duration_s = 1.0F;
+    scene.animations.push_back(animation);
+    scene.frames = {1, 25, 24.0};
+    const std::vector<glm::vec3> peak = peak_radiance(scene, 0);
+    EXPECT_NEAR(peak[0].r, 14.0F, 1e-3F);
+    EXPECT_EQ(peak[1].r, 0.0F) << "unlit";
 }
 
 TEST(Emitters, AMaterialThatIsLitLaterIsKept) {
