@@ -89,7 +89,8 @@ class PointStore {
     std::optional<scene::Ground> first_ground_;
     std::vector<PointRun> surface_runs_;  // one a surface
     std::vector<GpuPointSurface> surfaces_;
-    std::vector<GpuPointSurface> updated_surfaces_;
+    std::vector<GpuPointSurface> updated_surfaces_;   // that points stand on
+    std::vector<GpuPointSurface> uploaded_surfaces_;  // in surface_buffer_
     std::vector<PointRun> changed_;
     bool large_changed_ = false;
     gl::Buffer triangle_sources_, triangles_, point_materials_;

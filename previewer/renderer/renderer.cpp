@@ -431,7 +431,7 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
     report.notes = plan.notes;
     float reflected_flux = -1.0F;
     bool anything_seen = true;
-    if (settings.measure_removed && plan.vpls) {
+    if (settings.measure_removed && (plan.vpls || plan.emitter_bounces > 0)) {
         report.removed.emplace();
     }
 

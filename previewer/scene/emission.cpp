@@ -2,6 +2,7 @@
 #include "scene/emission.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -16,6 +17,34 @@ size_t at(int index) {
 }
 
 constexpr int k_moments = 9;
+
+// Of a box's side: what reaches no farther in than this, such as a lamp's socket, is not inside.
+constexpr double k_inside = 0.1;
+
+// The side of a closed surface that looks outwards, 1 the front and -1 the back; 0 where it has a border: an edge that
+// is not run along once in each direction.
+int outside_of(const Primitive& primitive) {
+    const std::vector<uint32_t> welded = welded_vertices(primitive);
+    std::vector<glm::uvec3> triangles;
+    double volume = 0.0;
+    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const glm::uvec3 corners(welded[primitive.indices[i]], welded[primitive.indices[i + 1]],
+                                 welded[primitive.indices[i + 2]]);
+        if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) {
+            continue;
+        }
+        triangles.push_back(corners);
+        const glm::dvec3 origin(primitive.positions.front());
+        const glm::dvec3 a = glm::dvec3(primitive.positions[primitive.indices[i]]) - origin;
+        const glm::dvec3 b = glm::dvec3(primitive.positions[primitive.indices[i + 1]]) - origin;
+        const glm::dvec3 c = glm::dvec3(primitive.positions[primitive.indices[i + 2]]) - origin;
+        volume += glm::dot(a, glm::cross(b, c));
+    }
+    if (triangles.empty() || !find_outlines(triangles).empty()) {
+        return 0;
+    }
+    return volume > 0.0 ? 1 : volume < 0.0 ? -1 : 0;
+}
 
 }  // namespace
 
@@ -41,27 +70,78 @@ std::vector<bool> may_emit(const Scene& scene) {
 }
 
 std::vector<uint32_t> welded_vertices(const Primitive& primitive) {
-    std::map<std::tuple<float, float, float>, uint32_t> places;
+    Box box;
+    for (const glm::vec3& p : primitive.positions) {
+        box.grow(p);
+    }
+    const glm::dvec3 side = box.empty() ? glm::dvec3(0.0) : glm::dvec3(box.high) - glm::dvec3(box.low);
+    const double step = std::max({side.x, side.y, side.z, 1e-30}) * 1e-5;
+    std::map<std::tuple<int64_t, int64_t, int64_t>, uint32_t> places;
     std::vector<uint32_t> welded;
     welded.reserve(primitive.positions.size());
     for (const glm::vec3& p : primitive.positions) {
-        welded.push_back(
-            places.emplace(std::tuple(p.x, p.y, p.z), static_cast<uint32_t>(places.size())).first->second);
+        const glm::dvec3 cell = (glm::dvec3(p) - glm::dvec3(box.low)) / step;
+        const auto key = std::tuple(std::llround(cell.x), std::llround(cell.y), std::llround(cell.z));
+        welded.push_back(places.emplace(key, static_cast<uint32_t>(places.size())).first->second);
     }
     return welded;
 }
 
-bool is_closed(const Primitive& primitive) {
-    const std::vector<uint32_t> welded = welded_vertices(primitive);
-    std::vector<glm::uvec3> triangles;
-    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const glm::uvec3 corners(welded[primitive.indices[i]], welded[primitive.indices[i + 1]],
-                                 welded[primitive.indices[i + 2]]);
-        if (corners.x != corners.y && corners.y != corners.z && corners.z != corners.x) {
-            triangles.push_back(corners);
+EmittingSidesFinder::EmittingSidesFinder(const Scene& scene) : scene_(scene) {
+    const Pose pose =
+        evaluate_pose(scene, time_of_frame(scene.frames, scene.frames.start), default_animation(scene));
+    for (const int n : scene.topological_order) {
+        const Node& node = scene.nodes[at(n)];
+        if (node.mesh == k_none) {
+            continue;
+        }
+        const std::vector<Primitive>& primitives = scene.meshes[at(node.mesh)].primitives;
+        for (size_t p = 0; p < primitives.size(); ++p) {
+            for (size_t i = 0; i < std::max<size_t>(node.instances.size(), 1); ++i) {
+                glm::dmat4 world = pose.world_from_node[at(n)];
+                world = node.instances.empty() ? world : world * node.instances[i];
+                Place place{n, static_cast<int>(i), static_cast<int>(p), {}};
+                for (const glm::vec3& position : primitives[p].positions) {
+                    place.box.grow(glm::dvec3(world * glm::dvec4(glm::dvec3(position), 1.0)));
+                }
+                all_.grow(place.box);
+                places_.push_back(place);
+            }
         }
     }
-    return !triangles.empty() && find_outlines(triangles).empty();
+}
+
+EmittingSides EmittingSidesFinder::find(int node, int instance, int primitive) {
+    const Primitive& surface = scene_.meshes[at(scene_.nodes[at(node)].mesh)].primitives[at(primitive)];
+    const auto known = outside_.find(&surface);
+    const int outside = known != outside_.end() ? known->second
+                                                : outside_.emplace(&surface, outside_of(surface)).first->second;
+    const bool holes = surface.material != k_none &&
+                       scene_.materials[at(surface.material)].alpha_mode != AlphaMode::opaque;
+    if (outside == 0 || holes || is_around_something(node, instance, primitive)) {
+        return {};
+    }
+    return {outside > 0, outside < 0};
+}
+
+bool EmittingSidesFinder::is_around_something(int node, int instance, int primitive) const {
+    const auto own = std::find_if(places_.begin(), places_.end(), [&](const Place& p) {
+        return p.node == node && p.instance == instance && p.primitive == primitive;
+    });
+    if (own == places_.end() || own->box.empty()) {
+        return false;
+    }
+    const glm::dvec3 room = k_inside * (own->box.high - own->box.low);
+    const glm::dvec3 low = own->box.low + room;
+    const glm::dvec3 high = own->box.high - room;
+    const bool all = glm::all(glm::lessThanEqual(own->box.low, all_.low)) &&
+                     glm::all(glm::greaterThanEqual(own->box.high, all_.high));
+    return all || std::any_of(places_.begin(), places_.end(), [&](const Place& other) {
+               return &other != &*own && !other.box.empty() && glm::all(glm::lessThan(other.box.low, high)) &&
+                      glm::all(glm::greaterThan(other.box.high, low)) &&
+                      // What is larger runs through it or around it.
+                      glm::length(other.box.high - other.box.low) < glm::length(own->box.high - own->box.low);
+           });
 }
 
 std::vector<glm::vec3> emitted_radiance(const std::vector<Material>& materials) {

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "scene/pose.h"
 #include "scene/scene.h"
 
 namespace bounce::scene {
@@ -25,11 +27,37 @@ namespace bounce::scene {
 // What each material sends at a pose, without textures, W/(m^2 sr); an unlit one nothing.
 [[nodiscard]] std::vector<glm::vec3> emitted_radiance(const std::vector<Material>& materials);
 
-// A number for each of the primitive's vertices, the same where they are at one place.
+// A number for each of the primitive's vertices, the same where they are at one place, but for a hundred-thousandth of
+// the primitive's size.
 [[nodiscard]] std::vector<uint32_t> welded_vertices(const Primitive& primitive);
 
-// Whether the surface has no border: each edge is run along once in each direction. Vertices at one place are
-// one.
-[[nodiscard]] bool is_closed(const Primitive& primitive);
+// Which sides of a surface send light: front is where its triangles turn counter-clockwise.
+struct EmittingSides {
+    bool front = true;
+    bool back = true;
+};
+
+// Both, as in Cycles, but where that would only light the inside of an empty body: a closed surface without holes
+// around nothing sends by its outside alone, whichever way its triangles turn. What lies inside of what is told by
+// boxes where the file's range of frames begins; a surface around the whole scene is around something.
+class EmittingSidesFinder {
+  public:
+    explicit EmittingSidesFinder(const Scene& scene);  // must outlive it
+    [[nodiscard]] EmittingSides find(int node, int instance, int primitive);
+
+  private:
+    struct Place {
+        int node;
+        int instance;
+        int primitive;
+        Bounds box;
+    };
+    [[nodiscard]] bool is_around_something(int node, int instance, int primitive) const;
+
+    const Scene& scene_;
+    std::vector<Place> places_;
+    Bounds all_;
+    std::map<const Primitive*, int> outside_;  // 1: front, -1: back, 0: it is not closed
+};
 
 }  // namespace bounce::scene

@@ -154,6 +154,7 @@ EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
         double power;
     };
     std::vector<Candidate> candidates;
+    EmittingSidesFinder sides(scene);
     size_t others = 0;
     for (const int n : scene.topological_order) {
         const Node& node = scene.nodes[at(n)];
@@ -172,9 +173,8 @@ EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
                 ++others;
                 continue;
             }
-            const bool both_sides = !is_closed(primitive);
             for (const std::vector<glm::uvec3>& triangles : flat_pieces(primitive)) {
-                EmissivePanel panel{n, 0, node.mesh, static_cast<int>(p), triangles, {}, {}, {}, both_sides};
+                EmissivePanel panel{n, 0, node.mesh, static_cast<int>(p), triangles, {}, {}, {}, {}};
                 if (!fit_rectangle(primitive, panel)) {
                     ++others;
                     continue;
@@ -182,6 +182,7 @@ EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
                 const size_t places = std::max<size_t>(node.instances.size(), 1);
                 for (size_t i = 0; i < places; ++i) {
                     panel.instance = static_cast<int>(i);
+                    panel.sides = sides.find(n, panel.instance, panel.primitive);
                     const glm::dmat3 world(world_from_model(scene, pose, panel));
                     const double area = 4.0 * glm::length(glm::cross(world * panel.half_x, world * panel.half_y));
                     candidates.push_back({panel, area * emitted_luminance(radiance[at(primitive.material)])});
@@ -194,7 +195,7 @@ EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
     EmissivePanels out;
     size_t lights = 0;
     for (Candidate& candidate : candidates) {
-        lights += candidate.panel.both_sides ? 2 : 1;
+        lights += (candidate.panel.sides.front ? 1U : 0U) + (candidate.panel.sides.back ? 1U : 0U);
         if (lights > most_lights) {
             break;
         }
@@ -227,7 +228,7 @@ PanelPose with_panel_lights(const Scene& scene, const Pose& pose, std::span<cons
         for (const bool back : {false, true}) {
             Light light;
             glm::dmat4 world_from_light(1.0);
-            if ((back && !panel.both_sides) ||
+            if (!(back ? panel.sides.back : panel.sides.front) ||
                 !panel_light(panel, world, sent, back, offset_m, light, world_from_light)) {
                 continue;
             }

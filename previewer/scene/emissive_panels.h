@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/emission.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
 
@@ -25,7 +26,7 @@ struct EmissivePanel {
     glm::dvec3 center{0.0};             // model space
     glm::dvec3 half_x{0.0};
     glm::dvec3 half_y{0.0};  // x cross y points to where its triangles turn counter-clockwise
-    bool both_sides = false;
+    EmittingSides sides;
 };
 
 struct EmissivePanels {

@@ -98,17 +98,16 @@ TEST_F(EmitterLight, PointsOnASquareAreItsFormFactorFromItsOwnSideAway) {
 }
 
 TEST_F(EmitterLight, PointsNearAPlaneStayBounded) {
-    // A centimetre away, points of 256 stand 9 cm apart: what the bound takes away is much, but nothing is brighter
-    // than the square itself by more than overlapping pieces make it, and `removed` says how much is missing.
-    Settings settings = lit(512, 0);
+    // A centimetre away from points that stand 9 cm apart a piece is as bright as the square itself at most, and with
+    // those around it up to 2.2 times; and `removed` says how much is missing between them.
+    Settings settings = lit(256, 0);
     settings.technique = Technique::ism;
     settings.measure_removed = true;
     scene::Scene scene = under_square(0.01);
-    add_pointer(scene);  // a light that bounces somewhere else
     CameraView camera = camera_from_above(0.8, 0.009);
     camera.camera.near_m = 1e-4F;
     const Rendered r = draw(scene, camera, settings);
-    EXPECT_LT(*std::max_element(r.image.rgb.begin(), r.image.rgb.end()), 2.0F * 1.5F);
+    EXPECT_LT(*std::max_element(r.image.rgb.begin(), r.image.rgb.end()), 2.0F * 2.5F);
     EXPECT_GT(r.mean(), 0.0);
     ASSERT_TRUE(r.report.removed.has_value());
     EXPECT_GT(r.report.removed->removed, 0.0);
@@ -145,14 +144,9 @@ TEST_F(EmitterLight, ARoomThatEmitsSeesItself) {
         scene.from_blender = true;
         const int material = add_diffuse(scene, glm::vec3(albedo));
         scene.materials.back().emission = glm::vec3(1.0F);
-        // Turned inside out, so that the closed surface sends inwards.
-        const int ball = add_ball(scene, material, 1.0F);
-        std::vector<uint32_t>& indices = scene.meshes[static_cast<size_t>(ball)].primitives[0].indices;
-        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            std::swap(indices[i + 1], indices[i + 2]);
-        }
-        add_mesh_node(scene, ball, glm::dmat4(1.0));
+        add_mesh_node(scene, add_ball(scene, material, 1.0F), glm::dmat4(1.0));
         CameraView camera = camera_from_above(1.0, 0.5);
+        camera.camera.far_m = 10.0F;
         Settings settings = lit(1024, 2);
         const double direct = middle(draw(scene, camera, settings));
         // What the bound takes where points lie beside the receiver: 1 % with 1,024 of them.

@@ -4,11 +4,13 @@
 // whole surface.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "scene/emission.h"
 #include "scene/emissive_panels.h"
 #include "scene/points/point_set.h"
 #include "scene/points/texture_reader.h"
@@ -20,7 +22,7 @@ struct EmitterSample {
     PointSample point;        // its share is that of its triangle's area, and may exceed 1
     double area_m2 = 0.0;     // of that part
     bool back = false;        // sends to where the triangle turns clockwise
-    glm::vec3 texture{1.0F};  // what the emission texture says there, linear; 1 without one
+    glm::vec3 texture{1.0F};  // what the emission texture says around there, linear; 1 without one
 };
 
 // The emissive triangles of a scene with what their textures say; radiances, which may be animated, come
@@ -31,11 +33,10 @@ class Emitters {
     // emits are left out: its factor is 0 and no animation moves it, or its texture is black.
     Emitters(const Scene& scene, const SurfaceParts& parts);
 
-    [[nodiscard]] bool empty() const { return triangles_.empty(); }
+    [[nodiscard]] bool empty() const { return pieces_.empty(); }
 
     // `count` samples in proportion to emitted power (luminance of the radiance times area), stratified over
-    // all surfaces; none where nothing emits. Both sides of a surface send, as in Cycles; of a closed one
-    // that is not a cut-out only the outer side is sampled, as its inside sees nothing else. radiance: what
+    // all surfaces; none where nothing emits. Sides send as EmittingSidesFinder says. radiance: what
     // decides the shares, one a material, without its texture, W/(m^2 sr); shown: for each of the parts'
     // surfaces. A radiance times a factor for all materials gives the same samples.
     // panels: left out, as something else draws their light.
@@ -44,19 +45,23 @@ class Emitters {
                                                     std::span<const EmissivePanel> panels = {}) const;
 
   private:
-    struct Triangle {
+    // A triangle, or one of the equal parts that a textured one is cut into.
+    struct Piece {
         size_t part;
-        uint32_t index;     // into the part's table
-        glm::vec3 texture;  // mean over the triangle
-        bool both_sides;
+        uint32_t index;                    // into the part's table
+        std::array<glm::vec2, 3> corners;  // barycentric weights of the triangle's second and third corner
+        float share;                       // of the triangle's area
+        glm::vec3 texture;                 // mean over the piece
+        EmittingSides sides;
     };
-    [[nodiscard]] double area_m2(const Triangle& triangle) const;
+    void add_pieces(size_t part, uint32_t index, const EmittingSides& sides);
+    [[nodiscard]] double area_m2(const Piece& piece) const;
     [[nodiscard]] std::vector<bool> taken_by(std::span<const EmissivePanel> panels) const;
 
     const Scene& scene_;
     const SurfaceParts& parts_;
-    mutable TextureReader textures_;  // keeps the pyramids of what was read
-    std::vector<Triangle> triangles_;
+    TextureReader textures_;
+    std::vector<Piece> pieces_;
 };
 
 }  // namespace bounce::scene

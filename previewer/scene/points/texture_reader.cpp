@@ -130,6 +130,23 @@ std::optional<glm::vec4> TextureReader::read(const TextureRef& ref, const Primit
     return bilinear(levels[level], texture.sampler, uv);
 }
 
+double TextureReader::texels(const TextureRef& ref, const Primitive& primitive, const glm::uvec3& triangle) {
+    const std::vector<glm::vec2>& uvs = ref.uv_set == 0 ? primitive.uv0 : primitive.uv1;
+    if (!ref.present() || scene_.textures[at(ref.texture)].image == k_none || uvs.empty()) {
+        return 0.0;
+    }
+    std::array<glm::dvec2, 3> corner;
+    for (size_t k = 0; k < 3; ++k) {
+        corner[k] =
+            glm::dvec2(glm::vec2(ref.uv_transform * glm::vec3(uvs[triangle[static_cast<int>(k)]], 1.0F)));
+    }
+    const glm::dvec2 ab = corner[1] - corner[0];
+    const glm::dvec2 ac = corner[2] - corner[0];
+    const Level& base = pyramid(scene_.textures[at(ref.texture)].image, true).front();
+    const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x) * base.width * base.height;
+    return std::isfinite(texels) ? texels : 0.0;
+}
+
 const std::vector<TextureReader::Level>& TextureReader::pyramid(int image, bool color) {
     const auto key = std::pair(image, color);
     const auto found = pyramids_.find(key);

@@ -16,6 +16,7 @@ Scene emitting(Primitive shape, const glm::dmat4& place = glm::dmat4(1.0)) {
     scene.materials[0].emission_strength = 3.0F;
     shape.material = 0;
     place_mesh(scene, add_mesh(scene, shape), place);
+    place_mesh(scene, add_mesh(scene, square(1.0F)), moved({0.0, 0.0, -20.0}));  // something else to be lit
     return scene;
 }
 
@@ -129,6 +130,34 @@ TEST(EmissivePanels, AMirroredBodyStillShinesOutwards) {
         const glm::dvec3 place(light.world_from_light[3]);
         EXPECT_GT(glm::dot(-glm::dvec3(light.world_from_light[2]), place), 0.9);
     }
+}
+
+TEST(EmissivePanels, ABodyAroundSomethingShinesInwardsToo) {
+    Scene scene = emitting(box({3.0F, 3.0F, 3.0F}));
+    EXPECT_EQ(lit(scene).pose.lights.size(), 6U);
+    place_mesh(scene, add_mesh(scene, square(0.5F)), moved({0.0, 0.0, 1.0}));
+    EXPECT_EQ(lit(scene).pose.lights.size(), 12U);
+}
+
+TEST(EmissivePanels, ABodyTurnedInsideOutShinesOutwards) {
+    Primitive shape = box({1.0F, 1.0F, 1.0F});
+    for (size_t i = 0; i + 2 < shape.indices.size(); i += 3) {
+        std::swap(shape.indices[i + 1], shape.indices[i + 2]);
+    }
+    const PanelPose pose = lit(emitting(shape));
+    ASSERT_EQ(pose.pose.light_instances.size(), 6U);
+    for (const LightInstance& light : pose.pose.light_instances) {
+        EXPECT_GT(glm::dot(-glm::dvec3(light.world_from_light[2]), glm::dvec3(light.world_from_light[3])), 0.9);
+    }
+}
+
+TEST(EmissivePanels, VerticesThatRoundingPartedAreOne) {
+    // A closed box whose corners differ by a millionth of its side from face to face.
+    Primitive shape = box({1.0F, 1.0F, 1.0F});
+    for (size_t i = 0; i < shape.positions.size(); ++i) {
+        shape.positions[i].x += 1e-6F * static_cast<float>(i % 3);
+    }
+    EXPECT_EQ(lit(emitting(shape)).pose.lights.size(), 6U);
 }
 
 TEST(EmissivePanels, OneThatIsHiddenOrDarkIsNoLight) {

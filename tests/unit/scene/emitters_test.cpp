@@ -138,6 +138,7 @@ TEST(Emitters, AMaterialThatIsLitLaterIsKept) {
     for (Material& material : e.scene.materials) material.emission_strength = 0.0F;
     EXPECT_TRUE(Emitters(e.scene, e.parts).empty());
     Animation animation;
+    animation.samplers.push_back({Interpolation::linear, 1, {0.0F}, {1.0F}});
     animation.channels.push_back({Property::material_emission_strength, 1, 0});
     e.scene.animations.push_back(animation);
     EXPECT_FALSE(Emitters(e.scene, e.parts).empty());
