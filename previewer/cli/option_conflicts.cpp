@@ -89,6 +89,13 @@ std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+std::string emitter_conflict(const RenderOptions& o, const Settings& s) {
+    if (o.emitter_panels.value_or(0) > 0 && s.emitter_vpls == 0) {
+        return "--emitter-panels has no effect with --emitter-vpls 0, where emissive surfaces light nothing";
+    }
+    return {};
+}
+
 std::string map_conflict(const RenderOptions& o, const Settings& s) {
     const char* splats = splat_option(o);
     const char* maps = o.ism_size ? "--ism-size" : splats;
@@ -162,7 +169,7 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
     for (std::string conflict :
-         {technique_conflict(o, s), shadow_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
+         {technique_conflict(o, s), shadow_conflict(o, s), emitter_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

@@ -246,6 +246,18 @@ void RenderOptions::add_to(CLI::App& command) {
             "not bounce",
             k_most_vpls),
         std::to_string(Settings{}.world_vpls));
+    group.number(
+        "--emitter-vpls", emitter_vpls,
+        fmt::format("Virtual point lights that stand for emissive surfaces, each with a shadow map, in any "
+                    "technique, 0 to {}; 0: what emits is seen but lights nothing",
+                    k_most_vpls),
+        std::to_string(Settings{}.emitter_vpls));
+    group.number(
+        "--emitter-panels", emitter_panels,
+        fmt::format("Sides of flat rectangles that emit evenly, those with the most light, which are drawn as "
+                    "area lights instead, 0 to {}",
+                    k_most_emitter_panels),
+        std::to_string(Settings{}.emitter_panels));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
@@ -300,6 +312,8 @@ Settings RenderOptions::settings_without_scene() const {
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
     set(world_vpls, out.world_vpls);
+    set(emitter_vpls, out.emitter_vpls);
+    set(emitter_panels, out.emitter_panels);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(near_field, out.near_field);

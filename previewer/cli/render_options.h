@@ -41,6 +41,8 @@ struct RenderOptions {
     std::optional<int> bounces;
     std::optional<int> bounce_vpls;
     std::optional<int> world_vpls;
+    std::optional<int> emitter_vpls;
+    std::optional<int> emitter_panels;
     std::optional<int> interleave;
     std::optional<bool> near_field;
     std::optional<bool> glossy;

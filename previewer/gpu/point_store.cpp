@@ -227,9 +227,14 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
     if (surface_buffer_.bytes() != surfaces_.size() * sizeof(GpuPointSurface)) {
         surface_buffer_ =
             gl::Buffer("point surfaces", surfaces_.size() * sizeof(GpuPointSurface), GL_DYNAMIC_STORAGE_BIT);
+        uploaded_surfaces_.clear();
     }
-    if (any_changed()) {
+    // Emitters stand on surfaces that may have no point.
+    const bool uploaded = std::equal(surfaces_.begin(), surfaces_.end(), uploaded_surfaces_.begin(),
+                                     uploaded_surfaces_.end(), same);
+    if (!uploaded) {
         surface_buffer_.update(std::span<const GpuPointSurface>(surfaces_));
+        uploaded_surfaces_ = surfaces_;
     }
 }
 

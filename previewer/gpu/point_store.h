@@ -63,10 +63,13 @@ class PointStore {
     // Materials and surfaces of the points, for shaders/lib/irsm.glsl.
     void bind_materials() const;
     void bind_for_triangle_update() const;
-
-  private:
+    // GpuPointSurface of each of parts().surfaces at this pose.
+    void bind_surfaces() const { surface_buffer_.bind_storage(SSBO_POINT_SURFACES); }
+    // A triangle's corners in the stream of positions, and its surface.
     [[nodiscard]] glm::uvec4 place(uint32_t surface, const glm::uvec3& triangle,
                                    const VertexStore& vertices) const;
+
+  private:
     void upload_materials();
     void upload(const VertexStore& vertices);
     void find_changes(const std::vector<GpuPointSurface>& now);
@@ -86,7 +89,8 @@ class PointStore {
     std::optional<scene::Ground> first_ground_;
     std::vector<PointRun> surface_runs_;  // one a surface
     std::vector<GpuPointSurface> surfaces_;
-    std::vector<GpuPointSurface> updated_surfaces_;
+    std::vector<GpuPointSurface> updated_surfaces_;   // that points stand on
+    std::vector<GpuPointSurface> uploaded_surfaces_;  // in surface_buffer_
     std::vector<PointRun> changed_;
     bool large_changed_ = false;
     gl::Buffer triangle_sources_, triangles_, point_materials_;

@@ -27,6 +27,7 @@ static_assert(sizeof(GpuPreviousDraw) == 4 * k_row);
 static_assert(sizeof(GpuVpl) == 8 * k_row);
 static_assert(sizeof(IsmUniforms) == 4 * k_row);
 static_assert(sizeof(GpuPointSource) == 2 * k_row);
+static_assert(sizeof(GpuEmitterSource) == 3 * k_row);
 static_assert(sizeof(GpuPointSurface) == 4 * k_row);
 static_assert(sizeof(DeformJob) == 3 * k_row);
 

@@ -13,6 +13,8 @@ namespace {
 // The picture's filter blurs a hard shadow's outline by more than this.
 constexpr double k_least_penumbra_pixels = 0.5;
 
+constexpr const char* k_no_light = "no light sends light";
+
 size_t at(int index) {
     return static_cast<size_t>(index);
 }
@@ -106,7 +108,7 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
         }
     }
     if (plan.lights.empty()) {
-        leave_out_bounces(plan, "no light sends light");
+        leave_out_bounces(plan, k_no_light);
     }
 }
 
@@ -135,6 +137,7 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     bool blend = false;
     bool emitters = false;
     bool reflects = false;
+    bool receives = draws_default_material(scene, pose);
     bool holes = false;
     for_each_material(scene, pose, [&](const scene::Material& material) {
         const bool shines = !material.unlit && !is_dark(material.emission * material.emission_strength);
@@ -143,6 +146,7 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
         plan.narrow_lobes |= glossy && has_narrow_lobe(material);
         blend |= material.alpha_mode == scene::AlphaMode::blend;
         holes |= material.alpha_mode != scene::AlphaMode::opaque;
+        receives |= !material.unlit && (!is_dark(glm::vec3(material.base_color)) || material.specular > 0.0F);
         // Where a texture says what is metal, the factor 1 is only glTF's default.
         const float metallic =
             glossy || material.metallic_roughness_texture.present() ? 0.0F : material.metallic;
@@ -165,12 +169,30 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     if (blend) {
         plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
     }
-    if (emitters) {
-        plan.approximations.emplace_back("emissive surfaces are seen but light nothing");
-    }
+    plan.emitters = emitters;
+    plan.receives = receives;
     if (!plan.emission) {
         plan.left_out.push_back({"emission", "no visible surface emits"});
     }
+}
+
+// Whether what emits lights anything. plan.emitters: whether anything that is drawn emits.
+void plan_emitters(const Settings& settings, bool whole, FramePlan& plan) {
+    const bool emits = plan.emitters;
+    plan.emitters = emits && plan.receives && whole && settings.emitter_vpls > 0;
+    if (!plan.emitters) {
+        plan.left_out.push_back({"emitter lights", !emits   ? "no visible surface emits"
+                                                   : !whole ? "the layer shows other light alone"
+                                                   : !plan.receives ? "no surface reflects light"
+                                                            : "emissive surfaces were asked to light nothing"});
+        if (emits && whole && settings.emitter_vpls == 0) {
+            plan.approximations.emplace_back("emissive surfaces are seen but light nothing, as asked for");
+        }
+        return;
+    }
+    const bool ism = settings.technique == Technique::ism;
+    plan.emitter_bounces = ism ? settings.bounces : 0;
+    plan.emitters_occluded = !ism || settings.visibility != Visibility::none;
 }
 
 }  // namespace
@@ -229,11 +251,16 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
             ? settings.bounces
             : 0;
+    plan_emitters(settings, whole, plan);
+    if (plan.world_bounces + plan.emitter_bounces > 0) {
+        std::erase(plan.notes, std::string("no bounced light: ") + k_no_light);
+    }
     // The option is one of technique ism; what surfaces reflect of the world directly has both lobes
     // everywhere.
-    plan.glossy = (plan.vpls || plan.world_occluded) &&
+    plan.glossy = (plan.vpls || plan.world_occluded || plan.emitters) &&
                   (settings.glossy_bounces || settings.technique != Technique::ism);
-    plan.occluded = (plan.vpls || plan.world_bounces > 0) && settings.visibility != Visibility::none;
+    plan.occluded = (plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0) &&
+                    settings.visibility != Visibility::none;
     if (!plan.environment) {
         plan.left_out.push_back(
             {"world image", scene.environment ? "the world's light is not shown" : "the world has no image"});

@@ -63,6 +63,12 @@ IsmLayout world_layout(const Settings& settings, int points_a_map) {
     return ism_layout(of, 1, points_a_map);
 }
 
+IsmLayout emitter_layout(const Settings& settings, int points_a_map) {
+    Settings of = settings;
+    of.vpls = settings.emitter_vpls;
+    return ism_layout(of, 1, points_a_map);
+}
+
 double depth_complexity(double area_m2, double hull_surface_m2) {
     return hull_surface_m2 > 0.0 ? 2.0 * area_m2 / hull_surface_m2 : 0.0;
 }

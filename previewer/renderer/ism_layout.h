@@ -30,6 +30,9 @@ struct IsmLayout {
 // Of the lights that stand for the world: Settings::world_vpls of them.
 [[nodiscard]] IsmLayout world_layout(const Settings& settings, int points_a_map);
 
+// Of the lights that stand for emissive surfaces: Settings::emitter_vpls of them.
+[[nodiscard]] IsmLayout emitter_layout(const Settings& settings, int points_a_map);
+
 // Points for one map: a quarter of the texels of a full parabolic map (Ritschel et al. 2008, 5.2), times the
 // mean number of surfaces along a line through the scene where that is above one, and at least what keeps
 // their disks small against the scene. depth_complexity: see depth_complexity().

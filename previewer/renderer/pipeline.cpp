@@ -7,6 +7,7 @@
 #include "passes/classic_maps.h"
 #include "passes/composite.h"
 #include "passes/direct_light.h"
+#include "passes/emitter_lights.h"
 #include "passes/gbuffer.h"
 #include "passes/irsm.h"
 #include "passes/ism.h"
@@ -76,14 +77,34 @@ passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const pass
     return world;
 }
 
+// Shadow maps of lights within the scene, as the settings have them.
+passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
+                          const passes::VplSet& set) {
+    passes::IsmAtlas maps;
+    if (in.settings.technique == Technique::ism && in.settings.visibility == Visibility::shadow_maps) {
+        maps.atlas = passes::add_classic_maps(graph, in.context, set);
+    } else {
+        maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
+    }
+    return maps;
+}
+
+// The lights on emissive surfaces and their shadow maps.
+passes::VplSet add_emitters(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
+    passes::VplSet emitters =
+        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.emitters.lights);
+    if (in.plan.emitters_occluded) {
+        emitters.atlas = add_maps(graph, in, scene, emitters).atlas;
+    }
+    return emitters;
+}
+
 // A bounce's lights with their shadow maps.
 void add_lights(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
                 passes::VplSet set, BouncedLights& lit) {
     passes::IsmAtlas maps;
-    if (in.plan.occluded && in.settings.visibility == Visibility::shadow_maps) {
-        maps.atlas = passes::add_classic_maps(graph, in.context, set);
-    } else if (in.plan.occluded) {
-        maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
+    if (in.plan.occluded) {
+        maps = add_maps(graph, in, scene, set);
     }
     set.atlas = maps.atlas;
     lit.sets.push_back(set);
@@ -110,11 +131,38 @@ passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, cons
     return add_vpls_from_irsms(graph, in.context, source, next.lights, in.plan.glossy).set;
 }
 
+// Lights that are there before any bounce, and what their bounces are drawn from.
+struct Emitted {
+    passes::VplSet world;  // without maps where there is none
+    passes::VplSet emitters;
+    [[nodiscard]] std::vector<passes::VplSet> sets() const {
+        std::vector<passes::VplSet> out;
+        for (const passes::VplSet& set : {world, emitters}) {
+            if (set.maps > 0) {
+                out.push_back(set);
+            }
+        }
+        return out;
+    }
+};
+
+void add_further_bounces(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
+                         const passes::VplSet& source, const passes::VplSet& irsms,
+                         const std::vector<Bounce>& bounces, BouncedLights& lit) {
+    for (size_t i = 0; i < bounces.size(); ++i) {
+        const bool first = i == 0;
+        add_lights(graph, in, scene,
+                   add_next_bounce(graph, in, scene, first ? source : lit.sets.back(),
+                                   first ? irsms : bounces[i - 1].irsms, bounces[i], lit.slope_bias),
+                   lit);
+    }
+}
+
 // Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
-// lights, then of the world.
+// lights, then of the world, then of emissive surfaces.
 BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                           const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene,
-                          const passes::VplSet& world) {
+                          const Emitted& emitted) {
     using namespace passes;
     BouncedLights lit;
     lit.slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks;
@@ -131,14 +179,8 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                        lit);
         }
     }
-    for (size_t i = 0; i < in.world_bounces.size(); ++i) {
-        const bool first = i == 0;
-        add_lights(graph, in, scene,
-                   add_next_bounce(graph, in, scene, first ? world : lit.sets.back(),
-                                   first ? in.world.irsms : in.world_bounces[i - 1].irsms,
-                                   in.world_bounces[i], lit.slope_bias),
-                   lit);
-    }
+    add_further_bounces(graph, in, scene, emitted.world, in.world.irsms, in.world_bounces, lit);
+    add_further_bounces(graph, in, scene, emitted.emitters, in.emitters.irsms, in.emitter_bounces, lit);
     return lit;
 }
 
@@ -151,11 +193,12 @@ struct FilteredLight {
 // Light of all bounces at once.
 FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                                 const std::vector<passes::VplSource>& sources, const BouncedLights& lit,
-                                const std::vector<passes::VplSet>& world) {
+                                const Emitted& emitted) {
     using namespace passes;
     const PassContext& context = in.context;
     std::vector<VplSet> sets = lit.sets;
-    sets.insert(sets.end(), world.begin(), world.end());
+    const std::vector<VplSet> first = emitted.sets();
+    sets.insert(sets.end(), first.begin(), first.end());
     const GatheredLight light = add_vpl_gather(graph, context,
                                                {.gbuffer = gbuffer,
                                                 .sets = sets,
@@ -188,7 +231,7 @@ FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
 // bounce's light near its sources from the reflective shadow maps.
 TextureHandle add_removed(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
-                          const BouncedLights& lit) {
+                          const BouncedLights& lit, const Emitted& emitted) {
     using namespace passes;
     VplGatherInputs bounded{.gbuffer = gbuffer,
                             .sets = lit.sets,
@@ -198,6 +241,9 @@ TextureHandle add_removed(FrameGraph& graph, const PipelineInputs& in, const pas
                             .removed = true};
     if (in.plan.near_field) {
         bounded.sets.erase(bounded.sets.begin());
+    }
+    if (in.plan.emitters) {
+        bounded.sets.push_back(emitted.emitters);
     }
     return bounded.sets.empty() ? TextureHandle{} : add_vpl_gather(graph, in.context, bounded).bounced;
 }
@@ -231,8 +277,10 @@ void add_all_dots(FrameGraph& graph, const PipelineInputs& in, const passes::GBu
                   const BouncedLights& lit, TextureHandle picture) {
     std::vector<passes::VplDots> dots;
     for (size_t i = 0; i < lit.sets.size(); ++i) {
-        // Those of the scene's lights, then those of the world.
-        const size_t first = i < in.bounces.size() ? 0 : in.bounces.size();
+        // Those of the scene's lights, then of the world, then of emissive surfaces.
+        const size_t of_lights = in.bounces.size();
+        const size_t of_world = of_lights + in.world_bounces.size();
+        const size_t first = i < of_lights ? 0 : i < of_world ? of_lights : of_world;
         const int bounce = static_cast<int>(i - first) + 1;
         if (in.settings.shown_bounce == 0 || in.settings.shown_bounce == bounce) {
             dots.push_back({lit.sets[i], bounce});
@@ -293,27 +341,30 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     BouncedLights lit;
     const ScenePoints scene =
         in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
-    std::vector<VplSet> world;
+    Emitted emitted;
     if (in.plan.world_occluded) {
-        world.push_back(add_world(graph, in, scene));
+        emitted.world = add_world(graph, in, scene);
     }
-    const bool lights_bounce = in.plan.vpls || in.plan.world_bounces > 0;
+    if (in.plan.emitters) {
+        emitted.emitters = add_emitters(graph, in, scene);
+    }
+    const bool lights_bounce = in.plan.vpls || in.plan.world_bounces > 0 || in.plan.emitter_bounces > 0;
     if (lights_bounce) {
         std::vector<VplSource> sources;
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
-        lit = add_bounces(graph, in, sources, scene, world.empty() ? VplSet{} : world.front());
+        lit = add_bounces(graph, in, sources, scene, emitted);
         if (add_map_layer(graph, in, gbuffer, lit)) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            const FilteredLight light = add_bounced_light(graph, in, gbuffer, sources, lit, world);
+            const FilteredLight light = add_bounced_light(graph, in, gbuffer, sources, lit, emitted);
             bounced = light.bounced;
             lobes = light.lobes;
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
-            const TextureHandle removed = add_removed(graph, in, gbuffer, lit);
+            const TextureHandle removed = add_removed(graph, in, gbuffer, lit, emitted);
             if (in.removed != nullptr && bounced.valid()) {
                 add_removed_light(graph, context, gbuffer, bounced, removed, in.removed);
             }
@@ -340,8 +391,8 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         irradiance = add_rsm_gather(graph, context, gather);
     }
 
-    if (!lights_bounce && !world.empty()) {
-        const FilteredLight light = add_bounced_light(graph, in, gbuffer, {}, lit, world);
+    if (!lights_bounce && (in.plan.world_occluded || in.plan.emitters)) {
+        const FilteredLight light = add_bounced_light(graph, in, gbuffer, {}, lit, emitted);
         bounced = light.bounced;
         lobes = light.lobes;
     }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "gpu/emitter_store.h"
 #include "gpu/point_store.h"
 #include "passes/motion.h"
 #include "passes/pass_context.h"
@@ -34,6 +35,9 @@ struct PipelineInputs {
     gl::Buffer* world_lights = nullptr;
     passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
+    gpu::EmitterStore* emitter_store = nullptr;
+    Bounce emitters;                      // where plan.emitters
+    std::vector<Bounce> emitter_bounces;  // plan.emitter_bounces of them
     int triangles_inside = 0;           // large triangles in maps of lights within the scene
     passes::PreviousFrame previous;     // where the plan shows motion
     TextureHandle target;

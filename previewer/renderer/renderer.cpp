@@ -64,11 +64,14 @@ constexpr int k_irsm_size = 32;
 
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
-    return plan.world_occluded || (plan.occluded && settings.visibility == Visibility::ism);
+    const bool emitters = plan.emitters && plan.emitters_occluded;
+    return plan.world_occluded ||
+           ((plan.occluded || emitters) &&
+            (settings.visibility == Visibility::ism || settings.technique != Technique::ism));
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0;
+    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0 || plan.emitters;
 }
 
 passes::VplSet vpl_set(const IsmLayout& layout) {
@@ -99,7 +102,10 @@ void require_fitting_sums(const Settings& settings, const FramePlan& plan, int p
     const char* option = "--world-vpls";
     for (const auto& [count, name] :
          {std::pair(tables && plan.bounces > 1 ? settings.vpls : 0, "--vpls"),
-          std::pair(tables && (plan.bounces > 2 || plan.world_bounces > 1) ? settings.bounce_vpls : 0,
+          std::pair(tables && plan.emitter_bounces > 0 ? settings.emitter_vpls : 0, "--emitter-vpls"),
+          std::pair(tables && (plan.bounces > 2 || plan.world_bounces > 1 || plan.emitter_bounces > 1)
+                        ? settings.bounce_vpls
+                        : 0,
                     "--bounce-vpls")}) {
         option = count > lights ? name : option;
         lights = std::max(lights, count);
@@ -153,14 +159,53 @@ Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene)
 }
 Renderer::~Renderer() = default;
 
-Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Settings& settings,
-                                               FramePlan& plan, FrameReport& report) {
+// How far before its surface the light of an emissive panel stands, of the scene's diagonal: ten roundings of a
+// place in a float.
+constexpr double k_panel_offset = 1e-6;
+
+std::optional<scene::PanelPose> Renderer::light_panels(const scene::Pose& pose, const Settings& settings) {
+    if (settings.emitter_vpls == 0 || settings.show == Show::motion) {
+        return std::nullopt;
+    }
+    if (settings.emitter_panels != most_panels_) {
+        panels_ = scene::find_emissive_panels(scene_, static_cast<size_t>(settings.emitter_panels));
+        most_panels_ = settings.emitter_panels;
+    }
+    if (panels_.panels.empty()) {
+        return std::nullopt;
+    }
+    return scene::with_panel_lights(scene_, pose, panels_.panels,
+                                    k_panel_offset * gpu_scene_.bounds().diagonal());
+}
+
+void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
+                              const Settings& settings, FramePlan& plan) {
+    if (!emitters_) {
+        emitters_ = std::make_unique<gpu::EmitterStore>(scene_, *points_);
+    }
+    emitters_->set_pose(pose, gpu_scene_.vertices(), static_cast<size_t>(emitter_layout(settings, 0).vpls), panels);
+    if (emitters_->lights() == 0) {
+        plan.emitters = plan.emitters_occluded = false;
+        plan.emitter_bounces = 0;
+        plan.occluded = plan.occluded && (plan.vpls || plan.world_bounces > 0);
+        plan.left_out.push_back({"emitter lights", panels.empty() ? "the textures of what emits are black"
+                                                                 : "all that emits is drawn as area lights"});
+    }
+}
+
+Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
+                                               std::span<const scene::EmissivePanel> panels,
+                                               const Settings& settings, FramePlan& plan,
+                                               FrameReport& report) {
     LitBounces out;
-    const bool splats = splats_points(plan, settings);
-    const bool needs_points = points_needed(plan, settings);
-    if (needs_points && !points_) {
+    if (points_needed(plan, settings) && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
     }
+    if (plan.emitters) {
+        place_emitters(pose, panels, settings, plan);
+    }
+    const bool splats = splats_points(plan, settings);
+    const bool needs_points = points_needed(plan, settings);
     IsmLayout first = ism_layout(settings, 1, 0);
     IsmLayout irsm = first;
     irsm.map_size = k_irsm_size;
@@ -185,8 +230,10 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Se
         counts.occluders = splats ? points_in_all(first) : 0;
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
         IsmLayout most = irsm;
-        most.vpls = std::max(most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0);
-        counts.reflectors = plan.bounces > 1 || plan.world_bounces > 0 ? points_in_all(most) : 0;
+        most.vpls = std::max({most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0,
+                              plan.emitter_bounces > 0 ? emitter_layout(settings, 0).vpls : 0});
+        const bool reflected = plan.bounces > 1 || plan.world_bounces > 0 || plan.emitter_bounces > 0;
+        counts.reflectors = reflected ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
         // What is on the hull hides no place of the scene from another, but the world from both.
         counts.hull_hides = plan.world_occluded;
@@ -197,7 +244,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Se
         mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
                       gpu_scene_.space().scale;
         if (splats && points_->occluders() == 0 && out.triangles == 0) {
-            plan.occluded = false;
+            plan.occluded = plan.emitters_occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
             if (shows_vpl_maps(settings.show)) {
@@ -205,16 +252,16 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Se
                     "there are no shadow maps to show: nothing stands between two places of the scene");
             }
         }
-        if ((plan.bounces > 1 || plan.world_bounces > 0) && points_->reflectors() == 0) {
+        if (reflected && points_->reflectors() == 0) {
             plan.bounces = std::min(plan.bounces, 1);
-            plan.world_bounces = 0;
+            plan.world_bounces = plan.emitter_bounces = 0;
             plan.left_out.push_back({"further bounces", "no surface has an area, so none has a point"});
             plan.notes.emplace_back("no further bounces: no surface has an area");
         }
     }
     if (needs_points) {
         report.points = points_->occluders();
-        report.points_a_map = plan.occluded ? first.points_a_map : 0;
+        report.points_a_map = plan.occluded || plan.emitters_occluded ? first.points_a_map : 0;
         report.large_triangles = points_->large_triangles();
     }
     if (plan.occluded) {
@@ -263,6 +310,12 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose, const Se
     for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
         out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
     }
+    if (plan.emitters) {
+        out.emitters = make_bounce(emitter_layout(settings, first.points_a_map), settings);
+    }
+    for (int bounce = 1; bounce <= plan.emitter_bounces; ++bounce) {
+        out.emitter_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
+    }
     return out;
 }
 
@@ -288,7 +341,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     return render_lit(pose, view, settings, timing, before, pose.light_instances.size());
 }
 
-FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view, const Settings& settings,
+FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& view, const Settings& settings,
                                  gl::TimingMode timing, const Moment* before, size_t own_lights) {
     FrameReport report;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
@@ -298,7 +351,7 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
     }
 
     gl::PassTimer timer(timing);
-    const Moment still{pose, view};
+    const Moment still{of_scene, view};
     const Moment& previous = before != nullptr ? *before : still;
     if (settings.show == Show::motion) {
         if (!previous_) {
@@ -306,7 +359,11 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
         }
         previous_->draw(gpu_scene_, programs_, pool_, uniforms_, previous, settings, timer, report.executed);
     }
-    gpu_scene_.set_pose(pose);
+    gpu_scene_.set_pose(of_scene);
+    const std::optional<scene::PanelPose> with_panels = light_panels(of_scene, settings);
+    const scene::Pose& pose = with_panels ? with_panels->pose : of_scene;
+    const std::vector<scene::EmissivePanel> panels =
+        with_panels ? with_panels->lit : std::vector<scene::EmissivePanel>{};
     report.triangles = gpu_scene_.triangles_drawn();
 
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
@@ -314,6 +371,12 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
     const Sight sight{gpu_scene_.bounds(),
                       finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
     FramePlan plan = plan_frame(scene_, pose, settings, &sight);
+    if (plan.emitters && !panels.empty() && panels_.all && panels.size() == panels_.panels.size()) {
+        plan.emitters = plan.emitters_occluded = false;
+        plan.emitter_bounces = 0;
+        plan.occluded = plan.occluded && (plan.vpls || plan.world_bounces > 0);
+        plan.left_out.push_back({"emitter lights", "all that emits is drawn as area lights"});
+    }
     report.approximations = plan.approximations;
 
     // Everything the passes read from uniform blocks, uploaded at once.
@@ -346,7 +409,8 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
-        pass.glossy = index < own_lights;
+        // What suns of the world's image reflect is in the image's own reflection; panels come after them.
+        pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
         if (plan.soft[i]) {
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
@@ -358,9 +422,12 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
         fluxes.push_back(setup.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
+    const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report);
+    std::vector<double> sent = fluxes;
+    sent.push_back(plan.emitters ? emitters_->power_w() : 0.0);
     const glm::vec3 radiance = pose.world.color * pose.world.strength;
     const float scale = half_scale(
-        fluxes, gpu_scene_.bounds(),
+        sent, gpu_scene_.bounds(),
         plan.world_occluded ? std::numbers::pi * std::max({radiance.r, radiance.g, radiance.b}) : 0.0);
     const auto frame_slot = [&](int samples) {
         return uniforms_.add(frame_uniforms(camera, scene_, pose, settings, samples, scale));
@@ -380,7 +447,6 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
         image.maps = &environment_->maps(*scene_.environment, programs_);
         image.uniforms = uniforms_.add(environment_->uniforms(pose.world));
     }
-    const LitBounces bounces = prepare_bounces(pose, settings, plan, report);
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -388,7 +454,7 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
     report.notes = plan.notes;
     float reflected_flux = -1.0F;
     bool anything_seen = true;
-    if (settings.measure_removed && plan.vpls) {
+    if (settings.measure_removed && (plan.vpls || plan.emitter_bounces > 0)) {
         report.removed.emplace();
     }
 
@@ -419,6 +485,9 @@ FrameReport Renderer::render_lit(const scene::Pose& pose, const CameraView& view
                     .world_lights = &world_lights_,
                     .image = image,
                     .world_bounces = bounces.world_bounces,
+                    .emitter_store = emitters_.get(),
+                    .emitters = bounces.emitters,
+                    .emitter_bounces = bounces.emitter_bounces,
                     .triangles_inside = bounces.triangles,
                     .previous = previous_frame,
                     .target = graph.import_texture("color", color_),

@@ -13,6 +13,7 @@
 #include "gl/pass_timer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "gpu/emitter_store.h"
 #include "gpu/gpu_scene.h"
 #include "gpu/point_store.h"
 #include "gpu/uniform_arena.h"
@@ -79,6 +80,8 @@ class Renderer {
         std::vector<Bounce> bounces;  // of the scene's lights
         Bounce world;                 // its own lights, where they are planned
         std::vector<Bounce> world_bounces;
+        Bounce emitters;  // likewise
+        std::vector<Bounce> emitter_bounces;
         int triangles = 0;  // large ones in the maps of lights within the scene
     };
     // own_lights: as many of the pose's light instances, the first, are the scene's; the others are suns of
@@ -87,13 +90,19 @@ class Renderer {
                            gl::TimingMode timing, const Moment* before, size_t own_lights);
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
-    LitBounces prepare_bounces(const scene::Pose& pose, const Settings& settings, FramePlan& plan,
-                               FrameReport& report);
+    LitBounces prepare_bounces(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
+                               const Settings& settings, FramePlan& plan, FrameReport& report);
+    // The pose with what the settings have drawn as area lights; nothing where that is nothing.
+    std::optional<scene::PanelPose> light_panels(const scene::Pose& pose, const Settings& settings);
+    // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
+    void place_emitters(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
+                        const Settings& settings, FramePlan& plan);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
     gpu::GpuScene gpu_scene_;
     std::unique_ptr<gpu::PointStore> points_;  // made when a frame first needs it
+    std::unique_ptr<gpu::EmitterStore> emitters_;  // the same
     gl::ProgramCache programs_;
     TransientPool pool_;
     gpu::UniformArena uniforms_;
@@ -103,6 +112,8 @@ class Renderer {
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
+    scene::EmissivePanels panels_;                   // of so many sides at most
+    int most_panels_ = -1;
 };
 
 // The view of the scene's active camera at the pose; framing_camera() where the scene has none.

@@ -105,10 +105,12 @@ std::string settings_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
-          map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
-          map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
-          out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
-          out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"), ism_refusal(s),
+           map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
+           map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
+           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
+           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
+           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
+           out_of("--emitter-panels", s.emitter_panels, 0, k_most_emitter_panels, "give a number"), ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
                               : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
         if (!refusal.empty()) {
@@ -143,6 +145,9 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
     }
     if (refusal.empty() && settings.world_vpls > 0) {
         refusal = atlas_refusal(settings, "--world-vpls", world_layout(settings, 0), limits);
+    }
+    if (refusal.empty() && settings.emitter_vpls > 0) {
+        refusal = atlas_refusal(settings, "--emitter-vpls", emitter_layout(settings, 0), limits);
     }
     return refusal;
 }

@@ -90,6 +90,9 @@ void technique_section(ViewState& state, PanelResult& result) {
     }
     changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.world_vpls, "not occluded");
+    changed |= choose_size("emitters' lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
+                           settings.emitter_vpls, "none");
+    changed |= choose_size("emissive panels", std::array{0, 1, 2, 4, 8, 16}, settings.emitter_panels, "none");
     changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
     changed |= choose("shadows", std::array{"hard", "soft"}, settings.direct_shadows);
     if (settings.direct_shadows == DirectShadows::vpl) {

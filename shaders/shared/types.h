@@ -141,6 +141,14 @@ struct GpuPointSource {
                             // on a large plane; w: its place in the sequence, uint bits
 };
 
+// A sample of a surface that emits; see scene/points/emitters.h.
+struct GpuEmitterSource {
+    uvec4 place;            // three vertices in the position stream, surface
+    vec4 weights;           // barycentric of the second and third vertex; share of the triangle's area, negated for
+                            // the side where the triangle turns clockwise; -
+    vec4 radiance;          // rgb W/(m^2 sr); -
+};
+
 // Where a surface stands at this pose.
 struct GpuPointSurface {
     vec4 render_from_model[3];  // rows

@@ -333,7 +333,6 @@ TEST_F(FramePlanTest, EmissionIsDrawnWhereASurfaceShines) {
     scene_.materials[0].emission = glm::vec3(0.0F, 2.0F, 0.0F);
     EXPECT_TRUE(plan().emission);
     EXPECT_EQ(reason(plan(), "emission"), "");
-    EXPECT_THAT(plan().approximations, Contains(HasSubstr("emissive surfaces")));
     scene_.materials[0].emission_strength = 0.0F;
     EXPECT_FALSE(plan().emission);
     scene_.materials[0].unlit = true;
@@ -344,6 +343,58 @@ TEST_F(FramePlanTest, AnUnlitSurfaceIsNotSaidToLackLight) {
     // By its definition an unlit surface lights nothing (KHR_materials_unlit), so that is no approximation.
     scene_.materials[0].unlit = true;
     EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("emissive surfaces"))));
+}
+
+TEST_F(FramePlanTest, EmissiveSurfacesLightOthers) {
+    EXPECT_FALSE(plan().emitters);
+    EXPECT_THAT(reason(plan(), "emitter lights"), HasSubstr("no visible surface emits"));
+    scene_.materials[0].emission = glm::vec3(0.0F, 2.0F, 0.0F);
+    settings_.technique = Technique::ism;
+    settings_.bounces = 2;
+    EXPECT_TRUE(plan().emitters);
+    EXPECT_TRUE(plan().emitters_occluded);
+    EXPECT_EQ(plan().emitter_bounces, 2);
+    EXPECT_EQ(reason(plan(), "emitter lights"), "");
+    EXPECT_TRUE(plan().approximations.empty());
+    settings_.show = Show::indirect;
+    EXPECT_FALSE(plan().emitters);
+    EXPECT_THAT(reason(plan(), "emitter lights"), HasSubstr("layer"));
+    settings_.show = Show::shaded;
+    scene_.materials[0].emission_strength = 0.0F;
+    EXPECT_FALSE(plan().emitters) << "dark in this frame";
+    scene_.materials[0].emission_strength = 1.0F;
+    settings_.emitter_vpls = 0;
+    EXPECT_FALSE(plan().emitters);
+    EXPECT_EQ(plan().emitter_bounces, 0);
+    EXPECT_THAT(reason(plan(), "emitter lights"), HasSubstr("asked"));
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("emissive surfaces")));
+}
+
+TEST_F(FramePlanTest, WhatReflectsNothingIsNotLitByEmitters) {
+    scene_.materials[0].emission = glm::vec3(1.0F);
+    scene_.materials[0].base_color = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+    scene_.materials[0].specular = 0.0F;
+    EXPECT_FALSE(plan().emitters);
+    EXPECT_THAT(reason(plan(), "emitter lights"), HasSubstr("no surface reflects light"));
+    scene_.materials[0].specular = 0.5F;
+    EXPECT_TRUE(plan().emitters);
+}
+
+TEST_F(FramePlanTest, EmittersAloneBounceWithoutAnyLight) {
+    scene_.materials[0].emission = glm::vec3(1.0F);
+    scene_.lights[0].power_w = 0.0F;
+    settings_.technique = Technique::ism;
+    EXPECT_EQ(plan().emitter_bounces, 1);
+    EXPECT_TRUE(plan().notes.empty()) << "it would not be true that nothing bounces";
+    EXPECT_TRUE(plan().occluded);
+    settings_.visibility = Visibility::none;
+    EXPECT_FALSE(plan().occluded);
+    EXPECT_FALSE(plan().emitters_occluded);
+    settings_.technique = Technique::direct;
+    EXPECT_TRUE(plan().emitters);
+    EXPECT_TRUE(plan().emitters_occluded) << "the setting is one of technique ism";
+    EXPECT_EQ(plan().emitter_bounces, 0);
+    EXPECT_TRUE(plan().glossy);
 }
 
 TEST_F(FramePlanTest, TheWorldLightsTheShadedPictureAlone) {

@@ -47,6 +47,8 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--bounces", 1, 4, [](Settings& s, int v) { s.bounces = v; });
     expect_range("--bounce-vpls", 1, 16384, [](Settings& s, int v) { s.bounce_vpls = v; });
     expect_range("--world-vpls", 0, 16384, [](Settings& s, int v) { s.world_vpls = v; });
+    expect_range("--emitter-vpls", 0, 16384, [](Settings& s, int v) { s.emitter_vpls = v; });
+    expect_range("--emitter-panels", 0, 64, [](Settings& s, int v) { s.emitter_panels = v; });
     expect_range("--points", 0, 65536, [](Settings& s, int v) { s.ism_points = v; });
     expect_range("--pull-push-levels", 1, 3, [](Settings& s, int v) { s.pull_push_levels = v; });
     expect_range("--rsm-samples", 1, 32768, [](Settings& s, int v) { s.rsm_samples = v; });
