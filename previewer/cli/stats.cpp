@@ -74,14 +74,9 @@ double short_digits(float value) {
 
 ordered_json settings_json(const Settings& s) {
     ordered_json out = {
-        {"width", s.width},
-        {"height", s.height},
-        {"technique", name_of(s.technique)},
-        {"show", name_of(s.show)},
-        {"shadow_size", s.shadow_size},
-        {"antialias", s.antialias},
-        {"samples", s.samples},
-        {"world_vpls", s.world_vpls}};
+        {"width", s.width},        {"height", s.height},           {"technique", name_of(s.technique)},
+        {"show", name_of(s.show)}, {"shadow_size", s.shadow_size}, {"antialias", s.antialias},
+        {"samples", s.samples},    {"world_vpls", s.world_vpls}};
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;
@@ -108,7 +103,16 @@ ordered_json settings_json(const Settings& s) {
     out["interleave"] = s.interleave;
     out["near_field"] = s.near_field;
     out["glossy"] = s.glossy_bounces;
+    out["vpl_sampling"] = name_of(s.vpl_sampling);
+    out["shading"] = name_of(s.shading);
+    if (s.simplifies()) {
+        out["simplify"] = s.simplify.ratio > 0.0 ? ordered_json(s.simplify.ratio) : ordered_json("auto");
+        out["simplify_error"] = s.simplify.error;
+    }
     out["visibility"] = name_of(s.visibility);
+    if (s.draws_triangle_maps()) {
+        out["map_projection"] = name_of(s.map_projection);
+    }
     if (s.visibility != Visibility::none) {
         out["ism_size"] = s.ism_size;
     }
@@ -130,6 +134,8 @@ ordered_json settings_json(const Settings& s) {
 
 ordered_json counts_json(const FrameReport& report) {
     return {{"triangles", report.triangles},
+            {"simplified_triangles", report.simplified_triangles},
+            {"simplified_error_m", report.simplified_error_m},
             {"lights", report.lights},
             {"vpls", report.vpls},
             {"rsm_samples", report.rsm_samples},

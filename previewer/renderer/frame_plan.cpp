@@ -233,6 +233,12 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan.glossy = (plan.vpls || plan.world_occluded) &&
                   (settings.glossy_bounces || settings.technique != Technique::ism);
     plan.occluded = (plan.vpls || plan.world_bounces > 0) && settings.visibility != Visibility::none;
+    const bool lit = plan.vpls || plan.world_bounces > 0;
+    plan.hybrid = lit && settings.shading == Shading::hybrid;
+    plan.simplified = plan.hybrid || (plan.occluded && settings.visibility == Visibility::simplified);
+    if (settings.simplifies() && !plan.simplified) {
+        plan.left_out.push_back({"simplified meshes", "no bounced light is drawn by them"});
+    }
     if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
     } else if (!plan.world_light && whole) {

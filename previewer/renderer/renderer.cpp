@@ -299,6 +299,11 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                       finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
     FramePlan plan = plan_frame(scene_, pose, settings, &sight);
     report.approximations = plan.approximations;
+    if (plan.simplified) {
+        gpu_scene_.simplify(settings.simplify);
+        report.simplified_triangles = gpu_scene_.simplified_triangles();
+        report.simplified_error_m = gpu_scene_.simplified_error_m();
+    }
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();

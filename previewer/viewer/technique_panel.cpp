@@ -60,7 +60,8 @@ bool vpl_settings(Settings& settings) {
     changed |= ImGui::Checkbox("near field", &settings.near_field);
     changed |= ImGui::Checkbox("glossy lobes", &settings.glossy_bounces);
     changed |=
-        choose("visibility", std::array{"none", "imperfect maps", "maps of triangles"}, settings.visibility);
+        choose("visibility", std::array{"none", "imperfect maps", "maps of triangles", "simplified meshes"},
+               settings.visibility);
     if (settings.visibility != Visibility::none) {
         changed |= choose_size("map size", std::array{32, 64, 128, 256}, settings.ism_size);
     }

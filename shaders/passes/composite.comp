@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up the picture: direct light, indirect light times albedo, emission, world.
+// Adds up the picture: direct light, indirect light times albedo, emission, world. REFLECTED: bounced light times albedo
+// alone, for another one to add (RADIANCE).
 #define READ_GBUFFER
 #include "lib/gbuffer.glsl"
 
@@ -15,6 +16,9 @@ layout(binding = TEX_INDIRECT) uniform sampler2D irradiance_texture;
 #include "lib/bounced.glsl"
 layout(binding = IMG_IN, rgba32ui) readonly uniform uimage2D bounced_image;
 #endif
+#ifdef RADIANCE
+layout(binding = TEX_RSM) uniform sampler2D radiance_texture;
+#endif
 #ifdef EMISSION
 layout(binding = TEX_GBUFFER2) uniform sampler2D emission_texture;
 #endif
@@ -24,7 +28,13 @@ void main() {
     if (any(greaterThanEqual(pixel, frame.size.xy))) {
         return;
     }
+#ifdef REFLECTED
+    vec3 color = vec3(0.0);
+    const float exposure = 1.0;
+#else
     vec3 color = frame.world_radiance.rgb * frame.composite.y;
+    float exposure = frame.composite.x;
+#endif
     Surface s;
     if (read_surface(pixel, s)) {
         color = vec3(0.0);
@@ -38,6 +48,9 @@ void main() {
         BouncedLight bounced = unpack_bounced(imageLoad(bounced_image, pixel));
         color += (diffuse_albedo(s) / PI * bounced.irradiance + bounced.glossy) / frame.composite.w;
 #endif
+#ifdef RADIANCE
+        color += texelFetch(radiance_texture, pixel, 0).rgb;
+#endif
 #ifdef WORLD
         // The world's light without occlusion; metals reflect it as well as the rest diffuses it.
         color += s.base_color * frame.world_radiance.rgb * frame.composite.y;
@@ -46,5 +59,5 @@ void main() {
         color += texelFetch(emission_texture, pixel, 0).rgb * frame.composite.y;
 #endif
     }
-    imageStore(color_image, pixel, vec4(color * frame.composite.x, 1.0));
+    imageStore(color_image, pixel, vec4(color * exposure, 1.0));
 }
