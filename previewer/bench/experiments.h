@@ -60,6 +60,9 @@ void measure_ism_error(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report);
 void measure_screen_sizes(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_creation(const BenchInputs& inputs, BenchReport& report);
+void measure_simplified_maps(const BenchInputs& inputs, BenchReport& report);
+void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report);
+void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 
 struct Experiment {
     std::string_view name;
