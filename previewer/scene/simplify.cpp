@@ -34,25 +34,55 @@ double area(const Primitive& primitive, const std::vector<uint32_t>& indices) {
 }
 
 // The triangles with one vertex for all that lie at one place: where normals or textures break, the surface
-// does not. What deforms must be moved alike, too. Empty where there are more streams than can be compared.
+// does not. What deforms must be moved alike, too; where that is more than can be compared, nothing is
+// joined.
 std::vector<uint32_t> weld(const Primitive& primitive) {
-    std::vector<meshopt_Stream> streams = {
-        {primitive.positions.data(), sizeof(glm::vec3), sizeof(glm::vec3)}};
+    if (primitive.targets.size() + 3 > k_most_streams) {
+        return primitive.indices;
+    }
+    // Compared byte by byte, where the two zeros differ.
+    std::vector<std::vector<glm::vec3>> places = {primitive.positions};
+    for (const MorphTarget& target : primitive.targets) {
+        if (!target.positions.empty()) {
+            places.push_back(target.positions);
+        }
+    }
+    std::vector<meshopt_Stream> streams;
+    for (std::vector<glm::vec3>& of : places) {
+        for (glm::vec3& place : of) {
+            place += 0.0F;  // -0 becomes 0
+        }
+        streams.push_back({of.data(), sizeof(glm::vec3), sizeof(glm::vec3)});
+    }
     if (!primitive.joints.empty()) {
         streams.push_back({primitive.joints.data(), sizeof(glm::u16vec4), sizeof(glm::u16vec4)});
         streams.push_back({primitive.weights.data(), sizeof(glm::vec4), sizeof(glm::vec4)});
     }
-    for (const MorphTarget& target : primitive.targets) {
-        if (!target.positions.empty()) {
-            streams.push_back({target.positions.data(), sizeof(glm::vec3), sizeof(glm::vec3)});
-        }
-    }
-    if (streams.size() > k_most_streams) {
-        return {};
-    }
     std::vector<uint32_t> out(primitive.indices.size());
     meshopt_generateShadowIndexBufferMulti(out.data(), primitive.indices.data(), primitive.indices.size(),
                                            primitive.positions.size(), streams.data(), streams.size());
+    return out;
+}
+
+// The vertices that are in use, alone: the simplifier takes others in the same place for breaks in the
+// surface, and does not touch these.
+struct Compact {
+    std::vector<glm::vec3> positions;
+    std::vector<uint32_t> vertices;  // of the primitive
+    std::vector<uint32_t> indices;
+};
+Compact compact(const Primitive& primitive, const std::vector<uint32_t>& indices) {
+    constexpr uint32_t unused = ~0U;
+    Compact out;
+    std::vector<uint32_t> place(primitive.positions.size(), unused);
+    for (const uint32_t index : indices) {
+        if (place[index] == unused) {
+            place[index] = static_cast<uint32_t>(out.vertices.size());
+            out.vertices.push_back(index);
+            out.positions.push_back(primitive.positions[index] + 0.0F);
+        }
+        out.indices.push_back(place[index]);
+    }
     return out;
 }
 
@@ -112,30 +142,31 @@ SimplifiedPrimitive simplify(const Primitive& primitive, double ratio, double er
         return unchanged;
     }
     const std::vector<uint32_t> welded = weld(primitive);
-    const std::vector<uint32_t>& source = welded.empty() ? primitive.indices : welded;
-    const double most_area = area(primitive, source) * (1.0 + k_most_growth);
-    const float* positions = &primitive.positions[0].x;
-    const size_t vertices = primitive.positions.size();
+    const Compact source = compact(primitive, welded);
+    const double most_area = area(primitive, welded) * (1.0 + k_most_growth);
+    const float* positions = &source.positions[0].x;
+    const size_t vertices = source.positions.size();
     const unsigned options = lock_border ? unsigned{meshopt_SimplifyLockBorder} : 0U;
     for (int i = 0; i < k_tries; ++i) {
         const double bold = std::exp2(-i);
         const double kept = 1.0 - (1.0 - ratio) * bold;
         const auto target =
-            std::max<size_t>(static_cast<size_t>(kept * static_cast<double>(source.size() / 3)), 1) * 3;
+            std::max<size_t>(static_cast<size_t>(kept * static_cast<double>(welded.size() / 3)), 1) * 3;
         SimplifiedPrimitive out;
-        out.indices.resize(source.size());
+        out.indices.resize(welded.size());
         float moved = 0.0F;
-        out.indices.resize(meshopt_simplify(out.indices.data(), source.data(), source.size(), positions,
-                                            vertices, sizeof(glm::vec3), target,
+        out.indices.resize(meshopt_simplify(out.indices.data(), source.indices.data(), source.indices.size(),
+                                            positions, vertices, sizeof(glm::vec3), target,
                                             static_cast<float>(error * bold), options, &moved));
         out.error_model = double{moved} * meshopt_simplifyScale(positions, vertices, sizeof(glm::vec3));
         if (out.indices.size() >= primitive.indices.size() || !std::isfinite(out.error_model)) {
             return unchanged;
         }
+        for (uint32_t& index : out.indices) {
+            index = source.vertices[index];
+        }
         if (!out.indices.empty() && area(primitive, out.indices) <= most_area) {
-            if (!welded.empty()) {
-                split_corners(primitive, welded, out.indices);
-            }
+            split_corners(primitive, welded, out.indices);
             return out;
         }
     }
