@@ -140,6 +140,7 @@ TEST_F(SimplifiedMaps, WhatDeformsIsSimplifiedAsItStands) {
 
 TEST_F(SimplifiedMaps, HybridShadingOfWholeMeshesIsDeferredShading) {
     scene::Scene scene = ball_scene();
+    scene.render.film_exposure = 2.0F;  // once
     Settings settings = preset_settings(Preset::lv2009);
     settings.width = settings.height = size;
     settings.vpls = 16;
