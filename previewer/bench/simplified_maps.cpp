@@ -71,28 +71,12 @@ void describe(const BenchInputs& inputs, const Settings& settings, BenchReport& 
                        {"bounces", std::to_string(settings.bounces)}};
 }
 
-// Why the settings' maps do not fit; empty where they do.
-std::string too_large(const Settings& settings) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    const IsmLayout layout = ism_layout(settings, 1, 0);
-    const double gib =
-        4.0 * static_cast<double>(layout.atlas_width()) * layout.atlas_height() / (1024.0 * 1024.0 * 1024.0);
-    const std::string atlas =
-        fmt::format("{0} maps of {1}x{1} texels make an atlas of {2}x{3}, {4:.2g} GiB", layout.vpls,
-                    settings.ism_size, layout.atlas_width(), layout.atlas_height(), gib);
-    if (layout.atlas_width() > most || layout.atlas_height() > most) {
-        return fmt::format("{}; this OpenGL driver holds {} texels a side", atlas, most);
-    }
-    return gib > k_most_atlas_gib
-               ? fmt::format("{}; this experiment takes no more than {:g}", atlas, k_most_atlas_gib)
-               : std::string();
-}
-
 // Measured, or the reason why not, which is noted.
 std::optional<MeasuredFrame> measure(const BenchInputs& inputs, FrameBench& bench, const Settings& settings,
                                      BenchReport& report) {
-    if (const std::string reason = too_large(settings); !reason.empty()) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (const std::string reason = maps_too_large(settings, most); !reason.empty()) {
         report.notes.push_back(fmt::format("Not measured: {}.", reason));
         return std::nullopt;
     }
@@ -162,6 +146,21 @@ Error error(const Image& image, const Image& reference) {
 }
 
 }  // namespace
+
+std::string maps_too_large(const Settings& settings, int texture_size) {
+    const IsmLayout layout = ism_layout(settings, 1, 0);
+    const double gib =
+        4.0 * static_cast<double>(layout.atlas_width()) * layout.atlas_height() / (1024.0 * 1024.0 * 1024.0);
+    const std::string atlas =
+        fmt::format("{0} maps of {1}x{1} texels make an atlas of {2}x{3}, {4:.2g} GiB", layout.vpls,
+                    settings.ism_size, layout.atlas_width(), layout.atlas_height(), gib);
+    if (layout.atlas_width() > texture_size || layout.atlas_height() > texture_size) {
+        return fmt::format("{}; this OpenGL driver holds {} texels a side", atlas, texture_size);
+    }
+    return gib > k_most_atlas_gib
+               ? fmt::format("{}; this experiment takes no more than {:g}", atlas, k_most_atlas_gib)
+               : std::string();
+}
 
 void measure_simplified_maps(const BenchInputs& inputs, BenchReport& report) {
     Settings settings = preset(inputs, true);
