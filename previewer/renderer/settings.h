@@ -106,7 +106,7 @@ struct Settings {
     int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
     VplSampling vpl_sampling = VplSampling::inverse_transform;  // of the first bounce
     Shading shading = Shading::deferred;
-    scene::Simplification simplify;  // of meshes that are drawn simplified
+    scene::Simplification simplify{};  // of meshes that are drawn simplified
     Visibility visibility = Visibility::ism;
     MapProjection map_projection = MapProjection::faces;  // of maps drawn from triangles
     Splat splat = Splat::disks;

@@ -68,6 +68,10 @@ bool vpl_settings(Settings& settings) {
     if (settings.visibility == Visibility::ism) {
         changed |= splat_settings(settings);
     }
+    // Only maps drawn from triangles may be larger.
+    if (!settings.draws_triangle_maps() || settings.world_vpls > 0) {
+        settings.ism_size = std::min(settings.ism_size, k_most_ism_size);
+    }
     // A bounce or a light that is no more is not shown either.
     settings.shown_bounce = std::min(settings.shown_bounce, settings.bounces);
     return changed;
