@@ -72,10 +72,10 @@ struct PassContext {
 // batch's features; depth_only batches take their fragment shader only where an alpha test needs it.
 enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth, seen_depth };
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
-                const gl::Defines& defines);
+                const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 // All of the scene, with ViewUniforms that the caller has bound.
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
-                  const gl::Defines& defines);
+                  const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 
 // Work groups that cover a picture, and the barrier after which everything written is seen.
 void dispatch_2d(int width, int height);

@@ -261,6 +261,13 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
                   (settings.glossy_bounces || settings.technique != Technique::ism);
     plan.occluded = (plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0) &&
                     settings.visibility != Visibility::none;
+    const bool lit = plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0;
+    plan.hybrid = lit && settings.shading == Shading::hybrid;
+    plan.simplified = plan.hybrid || ((plan.occluded || plan.emitters_occluded) &&
+                                      settings.visibility == Visibility::simplified);
+    if (settings.simplifies() && !plan.simplified) {
+        plan.left_out.push_back({"simplified meshes", "no bounced light is drawn by them"});
+    }
     if (!plan.environment) {
         plan.left_out.push_back(
             {"world image", scene.environment ? "the world's light is not shown" : "the world has no image"});

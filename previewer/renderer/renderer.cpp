@@ -378,6 +378,11 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         plan.left_out.push_back({"emitter lights", "all that emits is drawn as area lights"});
     }
     report.approximations = plan.approximations;
+    if (plan.simplified) {
+        gpu_scene_.simplify(settings.simplify);
+        report.simplified_triangles = gpu_scene_.simplified_triangles();
+        report.simplified_error_m = gpu_scene_.simplified_error_m();
+    }
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();

@@ -34,7 +34,9 @@ struct FrameReport {
     std::vector<LeftOut> left_out;  // planned and culled
     std::vector<std::string> approximations;
     size_t triangles = 0;
-    int rsm_samples = 0;  // a pixel, over all lights
+    size_t simplified_triangles = 0;  // of the simplified meshes, where some pass draws them
+    double simplified_error_m = 0.0;  // the largest distance a surface moved when it was simplified
+    int rsm_samples = 0;              // a pixel, over all lights
     int lights = 0;
     int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up the picture: direct light, indirect light times albedo, emission, world.
+// Adds up the picture: direct light, indirect light times albedo, emission, world. REFLECTED: bounced light times albedo
+// alone, for another one to add (RADIANCE).
 #define READ_GBUFFER
 #include "lib/gbuffer.glsl"
 
@@ -71,6 +72,9 @@ vec3 reflected_environment(ivec2 pixel, Surface s) {
     return environment_glossy(s, v, footprint) * seen;
 }
 #endif
+#ifdef RADIANCE
+layout(binding = TEX_RSM) uniform sampler2D radiance_texture;
+#endif
 #ifdef EMISSION
 layout(binding = TEX_GBUFFER2) uniform sampler2D emission_texture;
 #endif
@@ -80,10 +84,16 @@ void main() {
     if (any(greaterThanEqual(pixel, frame.size.xy))) {
         return;
     }
+#ifdef REFLECTED
+    vec3 color = vec3(0.0);
+    const float exposure = 1.0;
+#else
 #ifdef ENVIRONMENT
     vec3 color = background(pixel) * frame.composite.y;
 #else
     vec3 color = frame.world_radiance.rgb * frame.composite.y;
+#endif
+    float exposure = frame.composite.x;
 #endif
     Surface s;
     if (read_surface(pixel, s)) {
@@ -101,6 +111,9 @@ void main() {
 #ifdef ENVIRONMENT_GLOSSY
         color += reflected_environment(pixel, s) * frame.composite.y;
 #endif
+#ifdef RADIANCE
+        color += texelFetch(radiance_texture, pixel, 0).rgb;
+#endif
 #ifdef WORLD
         // The world's light without occlusion; metals reflect it as well as the rest diffuses it.
         color += s.base_color * frame.world_radiance.rgb * frame.composite.y;
@@ -109,5 +122,5 @@ void main() {
         color += texelFetch(emission_texture, pixel, 0).rgb * frame.composite.y;
 #endif
     }
-    imageStore(color_image, pixel, vec4(color * frame.composite.x, 1.0));
+    imageStore(color_image, pixel, vec4(color * exposure, 1.0));
 }
