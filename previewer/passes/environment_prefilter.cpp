@@ -2,6 +2,7 @@
 #include "passes/environment_prefilter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "gl/buffer.h"
@@ -20,9 +21,9 @@ void run_environment_prefilter(gl::ProgramCache& programs, const gpu::Environmen
     for (int level = 0; level < levels; ++level) {
         const int width = std::max(maps.glossy.desc().width >> level, 1);
         const int height = std::max(maps.glossy.desc().height >> level, 1);
-        const float first = static_cast<float>(ENVIRONMENT_FIRST_ROUGHNESS);
+        const auto first = static_cast<float>(ENVIRONMENT_FIRST_ROUGHNESS);
         const float roughness =
-            first + (1.0F - first) * static_cast<float>(level) / static_cast<float>(levels - 1);
+            std::pow(first, 1.0F - static_cast<float>(level) / static_cast<float>(levels - 1));
         glBindImageTexture(IMG_OUT, maps.glossy.id(), level, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
         glUniform2i(0, width, height);
         glUniform1f(1, roughness * roughness);

@@ -18,14 +18,26 @@ layout(binding = TEX_ENVIRONMENT_BRDF) uniform sampler2D environment_brdf_textur
 // density. Used below ENVIRONMENT_FIRST_ROUGHNESS alone.
 const float LOBE_RADIANS = 1.3;
 
+// Where a roughness lies among the levels, which are even steps of its logarithm. Between two of them the weights give
+// the middle of the lobe its height, which goes with 1/alpha^2: by half of each a small sun's reflection would be far too
+// bright.
+float rough_level(float roughness) {
+    const float first = ENVIRONMENT_FIRST_ROUGHNESS;
+    float r = clamp(roughness, first, 1.0);
+    float step_log = -log(first) / world.detail.z;
+    float level = min(floor(log(r / first) / step_log), world.detail.z - 1.0);
+    float low = exp(-4.0 * log(first) - 4.0 * level * step_log);
+    float high = low * exp(-4.0 * step_log);
+    return level + clamp((low - 1.0 / (r * r * r * r)) / (low - high), 0.0, 1.0);
+}
+
 // d: the mirrored view, unit, render space; footprint: radians between the rays of neighbouring pixels.
 vec3 environment_glossy_radiance(vec3 d, float roughness, float footprint) {
     vec3 e = environment_from_render(d);
-    vec3 sharp = environment_radiance(e, max(footprint * 0.5, LOBE_RADIANS * roughness * roughness));
+    vec3 sharp = environment_radiance(e, max(footprint, LOBE_RADIANS * roughness * roughness));
     const float first = ENVIRONMENT_FIRST_ROUGHNESS;
-    float rough = clamp((roughness - first) / (1.0 - first), 0.0, 1.0) * world.detail.z;
-    // Coarse levels of an equirectangular image have their first and last row a texel's half away from the poles.
-    vec3 wide = textureLod(environment_glossy_texture, environment_place(e), rough).rgb * world.environment_from_render[0].w;
+    vec3 wide = textureLod(environment_glossy_texture, environment_place(e), rough_level(roughness)).rgb *
+                world.environment_from_render[0].w;
     return mix(sharp, wide, smoothstep(0.5 * first, first, roughness));
 }
 

@@ -19,9 +19,9 @@ layout(binding = IMG_IN, rgba32ui) readonly uniform uimage2D bounced_image;
 #ifdef ENVIRONMENT
 #include "lib/environment.glsl"
 
-// Four rays a pixel, as far from its middle as Cycles' filter (Blackman-Harris, 1.5 pixels wide) is wide in the mean, less
-// what looking up 0.4 pixels of the image spreads.
-const float RAY_OFFSET = 0.17;
+// Four rays a pixel, each averaged over a part of it, spread by as much as Cycles' filter (Blackman-Harris, 1.5 pixels to
+// either side) in the mean square.
+const float RAY_OFFSET = 0.4;
 const float RAY_WIDTH = 0.4;
 
 // Unit vector that a place of the picture looks along, pixels.

@@ -97,7 +97,8 @@
 // Samples of each map that the near field takes at a pixel: 8 or 16.
 #define NEAR_SAMPLES 8
 #define NEAR_SAMPLES_GLOSSY 16
-// Roughness of the prefiltered world image's first level; its last is 1, and between them it grows evenly.
+// Roughness of the prefiltered world image's first level; its last is 1; the
+// logarithm grows evenly.
 #define ENVIRONMENT_FIRST_ROUGHNESS 0.2
 #define ENVIRONMENT_LEVELS 5
 // Depth samples a pixel for antialiasing. OpenGL promises four.
