@@ -90,11 +90,11 @@ struct Settings {
 
     // Virtual point lights and imperfect shadow maps.
     int bounces = 1;
-    int vpls = 256;         // of the first bounce
-    int bounce_vpls = 128;  // of each further one
-    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
-    int emitter_vpls = 256;   // that stand for emissive surfaces, in any technique; 0: these light nothing
-    int emitter_panels = 2;   // sides of flat rectangles that emit: drawn as area lights instead, at most
+    int vpls = 256;          // of the first bounce
+    int bounce_vpls = 128;   // of each further one
+    int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
+    int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
+    int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most
     Visibility visibility = Visibility::ism;
     Splat splat = Splat::disks;
     bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper

@@ -12,15 +12,15 @@ namespace bounce {
 
 // Ends of the ranges.
 constexpr int k_most_vpls = 16384;
-constexpr int k_most_emitter_panels = 64;  // each is a light with shadow maps of its own
+constexpr int k_most_emitter_panels = 64;   // each is a light with shadow maps of its own
 constexpr int k_most_points_a_map = 65536;  // a point's place in its map is kept in 16 bits
 constexpr int k_least_ism_size = 32;
 constexpr int k_most_ism_size = 256;
 constexpr int k_most_bounces = 4;
 constexpr int k_most_rsm_samples = 1 << 15;  // llvmpipe ends a loop after 65,535 iterations
 constexpr int k_most_samples = 4096;
-constexpr int k_least_shadow_samples = 8;    // SHADOW_VIEW_CHUNK
-constexpr int k_most_shadow_samples = 256;   // six layers each of the 2,048 that OpenGL 4.5 promises
+constexpr int k_least_shadow_samples = 8;   // SHADOW_VIEW_CHUNK
+constexpr int k_most_shadow_samples = 256;  // six layers each of the 2,048 that OpenGL 4.5 promises
 constexpr int k_least_map_size = 2;
 constexpr int k_most_map_size = 16384;
 
