@@ -18,6 +18,7 @@ class ExportContext:
         self.light_nodes = {}  # light pointer -> [(light, gltf node)]
         self.cameras = {}  # camera pointer -> (camera, gltf camera)
         self.materials = {}  # material pointer -> [gltf material]
+        self.world_image = None  # as in the document
         self.kept_in_order = []  # names of compressed meshes whose vertices stay in order for their shape keys
 
     def source_of(self, obj):

@@ -3,7 +3,9 @@
 
 import bpy
 
-from . import lights, read_lights, read_scene
+from io_scene_gltf2.io.exp.gltf2_io_binary_data import BinaryData
+
+from . import environment_file, lights, read_lights, read_scene, read_world
 from .errors import ExportError
 from .pointers import Pointer
 
@@ -79,11 +81,33 @@ def _root(gltf, export):
         "unsupported": tuple({"object": name, "what": what} for name, what in export.unsupported),
     }
     if ("world", None) in export.samples.values:
-        root["world"] = export.samples.at_start("world", None)
+        root["world"] = {**export.samples.at_start("world", None), **_world_image(gltf, export)}
     camera = _active_camera_node(gltf, export)
     if camera is not None:
         root["camera"] = camera
     return root
+
+
+_CARRIER = "BOUNCE_scene image"  # leaves the document again
+
+
+def carry_world_image(gltf_scene, export):
+    """The exporter has written its buffer before the root extensions are asked for; what hangs on a scene goes into the
+    buffer, and the number of its view comes into this dictionary."""
+    image = read_world.image_of(export.scene.world) if export.scene.world is not None else None
+    if image is not None:
+        data, mime_type = environment_file.encoded(image)
+        export.world_image = {"name": image.name, "mimeType": mime_type, "bufferView": BinaryData(data)}
+        gltf_scene.extensions = {**(gltf_scene.extensions or {}), _CARRIER: export.world_image}
+
+
+def _world_image(gltf, export):
+    if export.world_image is None:
+        return {}
+    for gltf_scene in gltf.scenes:
+        if (gltf_scene.extensions or {}).pop(_CARRIER, None) is not None and not gltf_scene.extensions:
+            gltf_scene.extensions = None
+    return {"image": export.world_image}
 
 
 def _active_camera_node(gltf, export):

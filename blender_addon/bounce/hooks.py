@@ -72,6 +72,7 @@ class glTF2ExportUserExtension:
     @_hook
     def gather_gltf_hook(self, export, active_scene, scenes, animations, export_settings):
         document.check_compression(scenes)
+        document.carry_world_image(scenes[active_scene], export)
         vtree = export_settings["vtree"]
         placements, sheared = transforms.place(vtree, export.samples, export.source_of)
         for name in sheared:

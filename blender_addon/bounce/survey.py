@@ -39,7 +39,9 @@ def _matters(scene_path):
 
 def _is_background_input(path, tree):
     return any(path.startswith(f'nodes["{node.name}"]') for node in tree.nodes
-               if node.type in {"BACKGROUND", "RGB", "VALUE"})
+               if node.type in {"BACKGROUND", "RGB", "VALUE"}) or any(
+        # The third of a Mapping's inputs is its rotation.
+        path.startswith(f'nodes["{node.name}"].inputs[2]') for node in tree.nodes if node.type == "MAPPING")
 
 
 def _layer_issues(layer_collection):

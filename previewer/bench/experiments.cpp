@@ -79,6 +79,13 @@ const std::vector<Experiment>& experiments() {
         {"ism-creation", "Making imperfect and classic shadow maps",
          "time to make 256 ISMs against 256 classic shadow maps, 70,000 triangles or more",
          measure_ism_creation},
+        {"lv-table1", "Frames a second with maps of simplified meshes",
+         "frames a second of preset lv2009 by map size and shading, and of whole meshes (Table I of 2009)",
+         measure_simplified_maps},
+        {"lv-fig6", "Error against the size of maps of simplified meshes",
+         "error and time of preset lv2009 against map size (Figure 6 of 2009)", measure_simplified_map_sizes},
+        {"lv-fig7", "Error against pixel lights",
+         "error and time of preset lv2009 against lights (Figure 7 of 2009)", measure_pixel_lights},
     };
     return all;
 }

@@ -60,6 +60,13 @@ void measure_ism_error(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report);
 void measure_screen_sizes(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_creation(const BenchInputs& inputs, BenchReport& report);
+void measure_simplified_maps(const BenchInputs& inputs, BenchReport& report);
+void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report);
+void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
+
+// Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
+// experiments take of memory. Empty where it is.
+[[nodiscard]] std::string maps_too_large(const Settings& settings, int texture_size);
 
 struct Experiment {
     std::string_view name;

@@ -140,9 +140,10 @@ void add_evaluate(CLI::App& app, Run& run) {
                      "Leave out steps of a peer whose frame is expected to take more seconds")
         ->check(CLI::Range(0.1, 1e6))
         ->capture_default_str();
-    command->add_flag("--final-render", options.final_render,
-                      "Compare with the scene as Cycles renders it by its own light paths as well, which takes a "
-                      "second reference");
+    command->add_flag(
+        "--final-render", options.final_render,
+        "Compare with the scene as Cycles renders it by its own light paths as well, which takes a "
+        "second reference");
     command->add_flag("--fresh", options.fresh,
                       "Measure the other engines anew, also what an earlier run has measured here");
     command

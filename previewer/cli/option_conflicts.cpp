@@ -49,11 +49,16 @@ const char* bounce_option(const RenderOptions& o) {
 }
 
 const char* vpl_option(const RenderOptions& o) {
-    const char* maps =
-        first_given({{"--visibility", o.visibility.has_value()}, {"--ism-size", o.ism_size.has_value()}});
+    const char* maps = first_given({{"--visibility", o.visibility.has_value()},
+                                    {"--ism-size", o.ism_size.has_value()},
+                                    {"--map-projection", o.map_projection.has_value()}});
     const char* lights = first_given({{"--vpls", o.vpls.has_value()},
                                       {"--bounces", o.bounces.has_value()},
                                       {"--interleave", o.interleave.has_value()},
+                                      {"--vpl-sampling", o.vpl_sampling.has_value()},
+                                      {"--shading", o.shading.has_value()},
+                                      {"--simplify", o.simplify.has_value()},
+                                      {"--simplify-error", o.simplify_error.has_value()},
                                       {"--near-field", o.near_field.has_value()},
                                       {"--glossy", o.glossy.has_value()}});
     for (const char* option : {lights, maps, splat_option(o), bounce_option(o)}) {
@@ -104,9 +109,23 @@ std::string map_conflict(const RenderOptions& o, const Settings& s) {
             "{} has no effect with --visibility none, which draws no shadow maps of virtual point lights",
             maps);
     }
-    if (s.visibility == Visibility::shadow_maps && splats != nullptr) {
+    if (s.draws_triangle_maps() && splats != nullptr) {
+        return fmt::format("{} has no effect with --visibility {}, which draws triangles, not points", splats,
+                           name_of(s.visibility));
+    }
+    if (!s.draws_triangle_maps() && o.map_projection) {
         return fmt::format(
-            "{} has no effect with --visibility shadow-maps, which draws triangles, not points", splats);
+            "--map-projection has no effect with --visibility {}; it is an option of --visibility "
+            "shadow-maps "
+            "and simplified",
+            name_of(s.visibility));
+    }
+    const char* simplify = first_given(
+        {{"--simplify", o.simplify.has_value()}, {"--simplify-error", o.simplify_error.has_value()}});
+    if (simplify != nullptr && !s.simplifies()) {
+        return fmt::format(
+            "{} has no effect without simplified meshes; give --visibility simplified or --shading hybrid",
+            simplify);
     }
     const bool disks = s.splat == Splat::disks;
     if (!disks && o.large_triangles) {

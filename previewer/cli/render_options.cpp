@@ -22,8 +22,10 @@ namespace bounce::cli {
 namespace {
 
 const std::map<std::string, Preset>& presets() {
-    static const std::map<std::string, Preset> names = {
-        {"auto", Preset::automatic}, {"rsm2005", Preset::rsm2005}, {"ism2008", Preset::ism2008}};
+    static const std::map<std::string, Preset> names = {{"auto", Preset::automatic},
+                                                        {"rsm2005", Preset::rsm2005},
+                                                        {"ism2008", Preset::ism2008},
+                                                        {"lv2009", Preset::lv2009}};
     return names;
 }
 
@@ -92,6 +94,25 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
                  "these points "
                  "splatted into imperfect reflective shadow maps, as in the 2008 paper",
                  "points");
+    group.one_of(
+        "--vpl-sampling", o.vpl_sampling, setting_names<VplSampling>(),
+        "How those of the first bounce are drawn from the reflective shadow maps: one for each cell of "
+        "equal flux, or texels at the points of the Halton sequence, as in the 2009 paper",
+        name_of(d.vpl_sampling));
+    group.one_of(
+        "--shading", o.shading, setting_names<Shading>(),
+        "Bounced light is gathered on what the camera sees, or, as by the 2009 paper's hybrid method, on "
+        "what it would see of the simplified meshes",
+        name_of(d.shading));
+    group.number(
+        "--simplify", o.simplify,
+        fmt::format("Share of their triangles that simplified meshes keep, above 0 to 1; or auto: what "
+                    "leaves the scene {} triangles",
+                    scene::k_simplified_triangles),
+        "auto");
+    group.number("--simplify-error", o.simplify_error,
+                 "How far their surface may move, as a part of a mesh's extent, above 0 to 1",
+                 fmt::format("{:g}", d.simplify.error));
     group.number(
         "--interleave", o.interleave,
         "1, 2, 4, 8 or 16: of N x N neighbouring pixels each gathers from another part of the lights",
@@ -106,10 +127,16 @@ void add_ism_options(CLI::App& command, RenderOptions& o) {
     const Settings d;
     Group group(command, k_ism_group);
     group.one_of("--visibility", o.visibility, setting_names<Visibility>(),
-                 "What hides them: nothing, imperfect shadow maps of points, or maps drawn from triangles "
-                 "(the reference; slow)",
+                 "What hides them: nothing, imperfect shadow maps of points, maps drawn from triangles "
+                 "(the reference; slow), or maps of simplified meshes",
                  name_of(d.visibility));
-    group.number("--ism-size", o.ism_size, "Side of each map in texels: 32, 64, 128 or 256",
+    group.one_of("--map-projection", o.map_projection, setting_names<MapProjection>(),
+                 "Maps drawn from triangles: through five faces of a cube, which is exact, or once by the "
+                 "paraboloid's own projection, which bends edges, as in the 2009 paper",
+                 name_of(d.map_projection));
+    group.number("--ism-size", o.ism_size,
+                 "Side of each map in texels: 32, 64, 128 or 256; also 512 or 1024 where it is drawn from "
+                 "triangles",
                  std::to_string(d.ism_size));
     group.number("--points", o.points,
                  fmt::format("Points splatted into each map, 1 to {}; or auto: by the maps' size and the "
@@ -184,6 +211,22 @@ int number_or_zero(const std::string& text, const char* word, const char* option
         throw usage_error(fmt::format("{} is 0; give a number from 1, or {}", option, word));
     }
     return value.value_or(0);
+}
+
+// A share above 0, or auto, for which the settings have 0.
+double share_or_auto(const std::string& text, const char* option) {
+    if (text == "auto") {
+        return 0.0;
+    }
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) {
+        throw usage_error(fmt::format("{} is '{}'; give a number, or auto", option, text));
+    }
+    if (value == 0.0) {
+        throw usage_error(fmt::format("{} is 0; give a number above 0 to 1, or auto", option));
+    }
+    return value;
 }
 
 template <typename T, typename U>
@@ -317,6 +360,10 @@ Settings RenderOptions::settings_without_scene() const {
     set(emitter_panels, out.emitter_panels);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
+    set(vpl_sampling, setting_names<VplSampling>(), out.vpl_sampling);
+    set(shading, setting_names<Shading>(), out.shading);
+    set(simplify_error, out.simplify.error);
+    set(map_projection, setting_names<MapProjection>(), out.map_projection);
     set(near_field, out.near_field);
     set(glossy, out.glossy_bounces);
     set(visibility, setting_names<Visibility>(), out.visibility);
@@ -347,6 +394,9 @@ Settings RenderOptions::settings_without_scene() const {
     }
     if (rsm_size) {
         out.rsm_size = number_or_zero(*rsm_size, "auto", "--rsm-size");
+    }
+    if (simplify) {
+        out.simplify.ratio = share_or_auto(*simplify, "--simplify");
     }
     if (points) {
         out.ism_points = number_or_zero(*points, "auto", "--points");

@@ -47,10 +47,15 @@ struct RenderOptions {
     std::optional<bool> near_field;
     std::optional<bool> glossy;
     std::optional<std::string> bounce_source;
+    std::optional<std::string> vpl_sampling;
+    std::optional<std::string> shading;
+    std::optional<std::string> simplify;  // a number, or auto
+    std::optional<double> simplify_error;
 
     // Their shadow maps.
     std::optional<std::string> visibility;
     std::optional<int> ism_size;
+    std::optional<std::string> map_projection;
     std::optional<std::string> points;  // a number, or auto
     std::optional<std::string> splat;
     std::optional<bool> large_triangles;

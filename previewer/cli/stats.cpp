@@ -110,7 +110,16 @@ ordered_json settings_json(const Settings& s) {
     out["interleave"] = s.interleave;
     out["near_field"] = s.near_field;
     out["glossy"] = s.glossy_bounces;
+    out["vpl_sampling"] = name_of(s.vpl_sampling);
+    out["shading"] = name_of(s.shading);
+    if (s.simplifies()) {
+        out["simplify"] = s.simplify.ratio > 0.0 ? ordered_json(s.simplify.ratio) : ordered_json("auto");
+        out["simplify_error"] = s.simplify.error;
+    }
     out["visibility"] = name_of(s.visibility);
+    if (s.draws_triangle_maps()) {
+        out["map_projection"] = name_of(s.map_projection);
+    }
     if (s.visibility != Visibility::none) {
         out["ism_size"] = s.ism_size;
     }
@@ -132,6 +141,8 @@ ordered_json settings_json(const Settings& s) {
 
 ordered_json counts_json(const FrameReport& report) {
     return {{"triangles", report.triangles},
+            {"simplified_triangles", report.simplified_triangles},
+            {"simplified_error_m", report.simplified_error_m},
             {"lights", report.lights},
             {"vpls", report.vpls},
             {"rsm_samples", report.rsm_samples},

@@ -13,6 +13,7 @@ import json
 import math
 import struct
 import sys
+import tempfile
 import urllib.parse
 from pathlib import Path
 
@@ -170,6 +171,8 @@ class Imported:
         self.make_lights()
         self.instances = {}
         self.make_instances(buffers)
+        set_world(self.scene, extension(document).get("world") or self.world)
+        link_world_image(self.scene, document, buffers, note)
         self.blinks = any("KHR_node_visibility" in node.get("extensions", {}) for node in document.get("nodes", []))
 
     def camera_of(self, index):
@@ -368,6 +371,35 @@ def set_world(scene, world):
     background = scene.world.node_tree.nodes["Background"]
     background.inputs["Color"].default_value = (*(world or {}).get("color", (0, 0, 0)), 1)
     background.inputs["Strength"].default_value = (world or {}).get("strength", 0)
+    mapping = scene.world.node_tree.nodes.get(WORLD_TURN)
+    if mapping is not None:
+        x, y, z, w = (world or {}).get("rotation", (0, 0, 0, 1))
+        mapping.inputs["Rotation"].default_value = mathutils.Quaternion((w, x, -z, y)).to_euler("XYZ")
+
+
+WORLD_TURN = "Bounce world"
+
+
+def link_world_image(scene, document, buffers, note):
+    """Puts the image of the file's world before its colour."""
+    described = extension(document).get("world", {}).get("image", {})
+    if "bufferView" not in described:
+        if described:
+            note("the world's image is beside the file: the reference has its mean colour")
+        return
+    view = document["bufferViews"][described["bufferView"]]
+    start = view.get("byteOffset", 0)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / ("world.hdr" if described.get("mimeType") == "image/vnd.radiance" else "world.exr")
+        path.write_bytes(bytes(buffers[view["buffer"]][start:start + view["byteLength"]]))
+        image = bpy.data.images.load(str(path))
+        image.pack()
+    tree = scene.world.node_tree
+    texture, mapping = tree.nodes.new("ShaderNodeTexEnvironment"), tree.nodes.new("ShaderNodeMapping")
+    texture.image, mapping.name, mapping.vector_type = image, WORLD_TURN, "TEXTURE"
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
 
 
 def set_materials(document, made):

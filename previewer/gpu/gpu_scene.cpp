@@ -2,6 +2,7 @@
 #include "gpu/gpu_scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -83,6 +84,18 @@ bool same_material(const scene::Material& a, const scene::Material& b) {
            a.emission == b.emission && a.emission_strength == b.emission_strength;
 }
 
+// The most that a length of the model becomes in render space. A skin's joints are taken to be as large as
+// the first.
+double model_scale(const scene::Pose& pose, const scene::DrawInstance& instance,
+                   const glm::dmat4& render_from_vertices, const RenderSpace& space) {
+    glm::dmat4 m = render_from_vertices;
+    if (instance.skin != scene::k_none && !pose.skins[at(instance.skin)].empty()) {
+        m = space.render_from_world() * pose.skins[at(instance.skin)].front();
+    }
+    return std::max(
+        {glm::length(glm::dvec3(m[0])), glm::length(glm::dvec3(m[1])), glm::length(glm::dvec3(m[2]))});
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const scene::Scene& scene) : scene_(scene), vertices_(scene), textures_(scene) {
@@ -130,6 +143,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         GpuDraw draw;
         DrawBox box;
         DrawSource source;
+        double scale = 1.0;
     };
     std::vector<Item> items;
     has_emission_ = has_disney_ = has_specular_ = false;
@@ -160,6 +174,9 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             item.batch.first_index = range.first_index;
             item.batch.index_count = range.index_count;
             item.batch.base_vertex = range.base_vertex;
+            item.batch.mesh = instance.mesh;
+            item.batch.primitive = static_cast<int>(p);
+            item.scale = model_scale(pose, instance, transform, space_);
             item.draw = pack_draw(transform, material_index);
             scene::Bounds world;
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
@@ -183,33 +200,62 @@ void GpuScene::build_batches(const scene::Pose& pose) {
     batches_.clear();
     draw_boxes_.clear();
     draw_sources_.clear();
-    std::vector<GpuDraw> draws;
+    draw_data_.clear();
+    draw_scales_.clear();
     for (size_t i = 0; i < items.size(); ++i) {
         if (i == 0 || key(items[i]) != key(items[i - 1])) {
             batches_.push_back(items[i].batch);
             batches_.back().first_draw = static_cast<uint32_t>(i);
         }
         ++batches_.back().draw_count;
-        draws.push_back(items[i].draw);
+        draw_data_.push_back(items[i].draw);
+        draw_scales_.push_back(items[i].scale);
         draw_boxes_.push_back(items[i].box);
         draw_sources_.push_back(items[i].source);
     }
-    if (draws.size() > draw_capacity_ || !draws_) {
-        draw_capacity_ = std::max<size_t>(draws.size(), 1);
+    upload_draws();
+}
+
+void GpuScene::upload_draws() {
+    if (draw_data_.size() > draw_capacity_ || !draws_) {
+        draw_capacity_ = std::max<size_t>(draw_data_.size(), 1);
         draws_ = gl::Buffer("draws", draw_capacity_ * sizeof(GpuDraw), GL_DYNAMIC_STORAGE_BIT);
         std::vector<uint32_t> ids(draw_capacity_);
         std::iota(ids.begin(), ids.end(), 0U);
         draw_ids_ = gl::Buffer::of("draw ids", std::span<const uint32_t>(ids));
         vertices_.set_draw_ids(draw_ids_);
     }
-    draws_.update(std::span<const GpuDraw>(draws));
+    draws_.update(std::span<const GpuDraw>(draw_data_));
     single_draws_.clear();
     for (DrawBatch& batch : batches_) {
         if (batch.draw_count == 1) {
-            batch.single = single_draws_.add(draws[batch.first_draw]);
+            batch.single = single_draws_.add(draw_data_[batch.first_draw]);
         }
     }
     single_draws_.upload();
+}
+
+void GpuScene::simplify(const scene::Simplification& settings) {
+    if (simplified_by_ != settings) {
+        simplified_ = scene::simplify_scene(scene_, settings);
+        vertices_.set_simplified(simplified_);
+        simplified_by_ = settings;
+    }
+    simplified_triangles_ = 0;
+    simplified_error_m_ = 0.0;
+    for (DrawBatch& batch : batches_) {
+        const PrimitiveRange range = vertices_.simplified_range(batch.mesh, batch.primitive);
+        batch.simplified_first_index = range.first_index;
+        batch.simplified_index_count = range.index_count;
+        simplified_triangles_ += size_t{batch.draw_count} * (range.index_count / 3);
+        const double error = simplified_[at(batch.mesh)][at(batch.primitive)].error_model;
+        for (uint32_t draw = batch.first_draw; draw < batch.first_draw + batch.draw_count; ++draw) {
+            const double moved = error * draw_scales_[draw];
+            draw_data_[draw].ids.z = std::bit_cast<int>(static_cast<float>(moved));
+            simplified_error_m_ = std::max(simplified_error_m_, moved / space_.scale);
+        }
+    }
+    upload_draws();
 }
 
 void GpuScene::bind() const {
@@ -231,10 +277,13 @@ void GpuScene::bind_material(const DrawBatch& batch) const {
     if (batch.features.emission_texture) textures_.bind(TEX_EMISSION, material.emission_texture, true);
 }
 
-void GpuScene::draw(const DrawBatch& batch, uint32_t first, uint32_t count) {
+void GpuScene::draw(const DrawBatch& batch, uint32_t first, uint32_t count, Geometry geometry) {
+    const bool whole = geometry == Geometry::whole;
+    const uint32_t first_index = whole ? batch.first_index : batch.simplified_first_index;
+    const uint32_t index_count = whole ? batch.index_count : batch.simplified_index_count;
     const auto* offset = reinterpret_cast<const void*>(  // NOLINT: OpenGL takes the offset as a pointer
-        static_cast<uintptr_t>(batch.first_index) * sizeof(uint32_t));
-    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(batch.index_count),
+        static_cast<uintptr_t>(first_index) * sizeof(uint32_t));
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(index_count),
                                                   GL_UNSIGNED_INT, offset, static_cast<GLsizei>(count),
                                                   batch.base_vertex, first);
 }

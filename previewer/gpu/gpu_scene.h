@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gl/buffer.h"
@@ -29,6 +30,12 @@ struct DrawFeatures {
     friend auto operator<=>(const DrawFeatures&, const DrawFeatures&) = default;
 };
 
+// Which triangles of a scene are drawn.
+enum class Geometry {
+    whole,
+    simplified,  // only after GpuScene::simplify()
+};
+
 // Instances of one primitive that share every state: one draw call.
 struct DrawBatch {
     DrawFeatures features;
@@ -38,6 +45,10 @@ struct DrawBatch {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     int base_vertex = 0;
+    int mesh = 0;  // into Scene::meshes, and into its primitives
+    int primitive = 0;
+    uint32_t simplified_first_index = 0;
+    uint32_t simplified_index_count = 0;
     uint32_t first_draw = 0;
     uint32_t draw_count = 0;
     UniformArena::Slot single;  // GpuDraw, where draw_count is 1
@@ -56,6 +67,13 @@ class GpuScene {
     explicit GpuScene(const scene::Scene& scene);
 
     void set_pose(const scene::Pose& pose);
+    // Puts simplified meshes beside the whole ones, for the pose that is set. They are made when it is first
+    // called, and where the settings change.
+    void simplify(const scene::Simplification& settings);
+    // Of the draws of the pose: triangles, and the largest distance a surface moved, metres. After
+    // simplify().
+    [[nodiscard]] size_t simplified_triangles() const { return simplified_triangles_; }
+    [[nodiscard]] double simplified_error_m() const { return simplified_error_m_; }
 
     [[nodiscard]] const scene::Scene& source() const { return scene_; }
     [[nodiscard]] const RenderSpace& space() const { return space_; }
@@ -83,11 +101,12 @@ class GpuScene {
     void bind_single(const DrawBatch& batch) const { single_draws_.bind(UBO_DRAW, batch.single); }
     void bind_material(const DrawBatch& batch) const;
     // Only `count` of the batch's draws, from `first` on (numbered as first_draw).
-    static void draw(const DrawBatch& batch, uint32_t first, uint32_t count);
+    static void draw(const DrawBatch& batch, uint32_t first, uint32_t count, Geometry geometry);
 
   private:
     void upload_materials(const std::vector<scene::Material>& materials);
     void build_batches(const scene::Pose& pose);
+    void upload_draws();
 
     const scene::Scene& scene_;
     RenderSpace space_;
@@ -96,6 +115,12 @@ class GpuScene {
     std::vector<DrawBatch> batches_;
     std::vector<DrawBox> draw_boxes_;
     std::vector<DrawSource> draw_sources_;
+    std::vector<GpuDraw> draw_data_;
+    std::vector<double> draw_scales_;  // render units a model unit, at most
+    std::optional<scene::Simplification> simplified_by_;
+    scene::SimplifiedMeshes simplified_;  // without their triangles
+    size_t simplified_triangles_ = 0;
+    double simplified_error_m_ = 0.0;
     gl::Buffer draws_;
     UniformArena single_draws_;
     gl::Buffer draw_ids_;

@@ -15,6 +15,7 @@ using glm::vec4;
 
 constexpr std::size_t k_row = sizeof(vec4);  // a mat4 has four
 static_assert(sizeof(FrameUniforms) == (4 + 6) * k_row);
+static_assert(sizeof(WorldUniforms) == 4 * k_row);
 static_assert(sizeof(ViewUniforms) == (4 + 1) * k_row);
 static_assert(sizeof(GpuLight) == 8 * k_row);
 static_assert(sizeof(GpuShadowView) == 7 * k_row);

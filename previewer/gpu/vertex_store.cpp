@@ -31,11 +31,10 @@ void append(std::vector<T>& out, const std::vector<T>& values, size_t count, con
 
 // Triangles in an order that finds most vertices transformed already (Forsyth 2006, "Linear-Speed Vertex
 // Cache Optimisation", as meshoptimizer has it): files often hold them in the order they were modelled.
-void append_triangles(std::vector<uint32_t>& out, const scene::Primitive& primitive) {
+void append_triangles(std::vector<uint32_t>& out, const std::vector<uint32_t>& indices, size_t vertices) {
     const size_t first = out.size();
-    out.resize(first + primitive.indices.size());
-    meshopt_optimizeVertexCache(&out[first], primitive.indices.data(), primitive.indices.size(),
-                                primitive.positions.size());
+    out.resize(first + indices.size());
+    meshopt_optimizeVertexCache(&out[first], indices.data(), indices.size(), vertices);
 }
 
 glm::vec4 matrix_row(const glm::dmat4& matrix, int row) {
@@ -84,7 +83,7 @@ VertexStore::VertexStore(const scene::Scene& scene) {
                               static_cast<uint32_t>(build.indices.size()),
                               static_cast<uint32_t>(primitive.indices.size())});
             build.add_vertices(primitive);
-            append_triangles(build.indices, primitive);
+            append_triangles(build.indices, primitive.indices, primitive.positions.size());
         }
     }
     add_deformed_nodes(scene, build);
@@ -159,6 +158,7 @@ void VertexStore::create(Builder& build) {
     positions_ = stream("positions", build.positions);
     normals_ = stream("normals", build.normals);
     indices_ = stream("indices", build.indices);
+    index_count_ = build.indices.size();
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     vertex_array_ = gl::Object<delete_vertex_array>(id);
@@ -195,6 +195,33 @@ void VertexStore::create(Builder& build) {
             gl::Buffer("skin matrices", at(build.matrices) * 3 * sizeof(glm::vec4), GL_DYNAMIC_STORAGE_BIT);
         weights_ = gl::Buffer("morph weights", at(build.weights) * sizeof(float), GL_DYNAMIC_STORAGE_BIT);
     }
+}
+
+void VertexStore::set_simplified(const scene::SimplifiedMeshes& meshes) {
+    simplified_.clear();
+    std::vector<uint32_t> added;
+    for (size_t m = 0; m < meshes.size(); ++m) {
+        std::vector<PrimitiveRange>& ranges = simplified_.emplace_back();
+        for (size_t p = 0; p < meshes[m].size(); ++p) {
+            const PrimitiveRange& whole = ranges_[m][p];
+            const std::vector<uint32_t>& indices = meshes[m][p].indices;
+            ranges.push_back({whole.base_vertex, static_cast<uint32_t>(index_count_ + added.size()),
+                              static_cast<uint32_t>(indices.size())});
+            const uint32_t last = indices.empty() ? 0 : *std::max_element(indices.begin(), indices.end());
+            append_triangles(added, indices, size_t{last} + 1);
+        }
+    }
+    gl::Buffer all("indices", std::max<size_t>((index_count_ + added.size()) * sizeof(uint32_t), 1),
+                   GL_DYNAMIC_STORAGE_BIT);
+    const auto own = static_cast<GLsizeiptr>(index_count_ * sizeof(uint32_t));
+    if (own > 0) {
+        glCopyNamedBufferSubData(indices_.id(), all.id(), 0, 0, own);
+    }
+    if (!added.empty()) {
+        all.update(std::span<const uint32_t>(added), index_count_ * sizeof(uint32_t));
+    }
+    indices_ = std::move(all);
+    glVertexArrayElementBuffer(vertex_array_.id(), indices_.id());
 }
 
 void VertexStore::set_draw_ids(const gl::Buffer& ids) const {

@@ -9,6 +9,7 @@
 #include "gpu/shared_types.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
+#include "scene/simplify.h"
 
 namespace bounce::gpu {
 
@@ -38,6 +39,12 @@ class VertexStore {
     [[nodiscard]] PrimitiveRange deformed_range(int node, int primitive) const {
         return deformed_[static_cast<size_t>(node)][static_cast<size_t>(primitive)];
     }
+    // Puts fewer triangles of the same vertices beside all of them, in the place of those put there before.
+    void set_simplified(const scene::SimplifiedMeshes& meshes);
+    // Its vertices are those of range() or deformed_range(). Only after set_simplified().
+    [[nodiscard]] PrimitiveRange simplified_range(int mesh, int primitive) const {
+        return simplified_[static_cast<size_t>(mesh)][static_cast<size_t>(primitive)];
+    }
     // Uploads joint matrices and morph weights of the pose.
     void set_pose(const scene::Pose& pose, const RenderSpace& space);
 
@@ -56,7 +63,9 @@ class VertexStore {
     void create(Builder& build);
 
     std::vector<std::vector<PrimitiveRange>> ranges_;
-    std::vector<std::vector<PrimitiveRange>> deformed_;  // per node; empty where rigid
+    std::vector<std::vector<PrimitiveRange>> deformed_;    // per node; empty where rigid
+    std::vector<std::vector<PrimitiveRange>> simplified_;  // per mesh; empty where nothing is simplified
+    size_t index_count_ = 0;                               // of all triangles
     std::vector<DeformJob> jobs_;
     std::vector<int> job_nodes_;
     std::vector<int> skin_first_matrix_;

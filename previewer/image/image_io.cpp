@@ -138,6 +138,8 @@ void write_image(const fs::path& path, const Image& image, const ImageAttributes
     spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
     if (exr) {
         spec.attribute("compression", "zip");
+        // Without one OpenImageIO writes the time of day, and the same pixels would make another file.
+        spec.attribute("DateTime", "1970:01:01 00:00:00");
     } else if (extension_of(path) == ".jpg" || extension_of(path) == ".jpeg") {
         spec.attribute("Compression", "jpeg:95");
     }

@@ -3,6 +3,27 @@
 
 namespace bounce::passes {
 
+TextureHandle add_reflected(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                            TextureHandle bounced) {
+    TextureHandle out;
+    graph.add_pass("reflected light", [&](PassBuilder& builder) {
+        read_gbuffer(builder, gbuffer);
+        builder.read(bounced);
+        out = builder.create_texture(
+            "reflected light", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
+        return [context, gbuffer, bounced, out](const PassResources& resources) {
+            context.programs.compute("passes/composite.comp", {{"BOUNCED", "1"}, {"REFLECTED", "1"}}).use();
+            context.uniforms.bind(UBO_FRAME, context.frame);
+            bind_gbuffer(resources, gbuffer);
+            resources.texture(bounced).bind_image(IMG_IN, GL_READ_ONLY);
+            resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
+            dispatch_2d(context.width, context.height);
+            finish_writes();
+        };
+    });
+    return out;
+}
+
 TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
                             TextureHandle target) {
     TextureHandle out;
@@ -21,6 +42,15 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             builder.read(inputs.bounced);
             defines["BOUNCED"] = "1";
         }
+        if (inputs.image.maps != nullptr) defines["ENVIRONMENT"] = "1";
+        if (inputs.image.maps != nullptr && inputs.lobes.valid()) {
+            builder.read(inputs.lobes);
+            defines["ENVIRONMENT_GLOSSY"] = "1";
+        }
+        if (inputs.radiance.valid()) {
+            builder.read(inputs.radiance);
+            defines["RADIANCE"] = "1";
+        }
         if (inputs.world_light) defines["WORLD"] = "1";
         const bool emission = inputs.emission && inputs.gbuffer.emission.valid();
         if (emission) {
@@ -38,6 +68,14 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             if (inputs.direct.valid()) resources.texture(inputs.direct).bind(TEX_DIRECT);
             if (inputs.irradiance.valid()) resources.texture(inputs.irradiance).bind(TEX_INDIRECT);
             if (inputs.bounced.valid()) resources.texture(inputs.bounced).bind_image(IMG_IN, GL_READ_ONLY);
+            if (inputs.image.maps != nullptr) {
+                context.uniforms.bind(UBO_WORLD, inputs.image.uniforms);
+                inputs.image.maps->image.bind(TEX_ENVIRONMENT);
+                inputs.image.maps->glossy.bind(TEX_ENVIRONMENT_GLOSSY);
+                inputs.image.maps->brdf.bind(TEX_ENVIRONMENT_BRDF);
+            }
+            if (inputs.lobes.valid()) resources.texture(inputs.lobes).bind_image(IMG_LOBES, GL_READ_ONLY);
+            if (inputs.radiance.valid()) resources.texture(inputs.radiance).bind(TEX_RSM);
             if (emission) resources.texture(inputs.gbuffer.emission).bind(TEX_GBUFFER2);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

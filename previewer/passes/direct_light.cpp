@@ -16,7 +16,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         gl::Defines defines = light_defines(light);
         if (first) defines["FIRST_LIGHT"] = "1";
         if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
-        if (context.scene.has_specular()) defines["SPECULAR"] = "1";
+        if (context.scene.has_specular() && light.glossy) defines["SPECULAR"] = "1";
         if (shadow_map.valid()) {
             builder.read(shadow_map);
             builder.read(gbuffer.geometric_normal);

@@ -20,11 +20,11 @@ bool draws_samples(const Draw& draw) {
     return any != 0;
 }
 
-}  // namespace
-
-GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera, bool* anything_seen) {
+GBuffer add(FrameGraph& graph, const PassContext& context, const View& camera, gpu::Geometry geometry,
+            bool* anything_seen) {
     GBuffer out;
-    graph.add_pass("gbuffer", [&](PassBuilder& builder) {
+    const bool whole = geometry == gpu::Geometry::whole;
+    graph.add_pass(whole ? "gbuffer" : "gbuffer, simplified", [&](PassBuilder& builder) {
         const auto target = [&](const char* name, GLenum format) {
             return builder.create_texture(
                 name, {.format = format, .width = context.width, .height = context.height});
@@ -33,10 +33,10 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
         out.base_color_roughness = target("base colour, roughness", GL_RGBA16F);
         out.normal_metallic_specular = target("normal, metallic, specular", GL_RGBA16);
         out.geometric_normal = target("geometric normal", GL_RG16);
-        if (context.scene.has_emission()) {
+        if (whole && context.scene.has_emission()) {
             out.emission = target("emission", GL_RGBA32F);
         }
-        return [context, camera, out, anything_seen](const PassResources& resources) {
+        return [context, camera, geometry, out, anything_seen](const PassResources& resources) {
             const gl::Attachment color{&resources.texture(out.base_color_roughness)};
             const gl::Attachment normal{&resources.texture(out.normal_metallic_specular)};
             const gl::Attachment geometric{&resources.texture(out.geometric_normal)};
@@ -55,7 +55,7 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
             }
             const auto draw = [&] {
                 draw_scene(context, camera, emission ? DrawKind::surface_with_emission : DrawKind::surface,
-                           "passes/gbuffer.frag", {});
+                           "passes/gbuffer.frag", {}, geometry);
             };
             if (anything_seen != nullptr) {
                 *anything_seen = draws_samples(draw);
@@ -65,6 +65,16 @@ GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& c
         };
     });
     return out;
+}
+
+}  // namespace
+
+GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera, bool* anything_seen) {
+    return add(graph, context, camera, gpu::Geometry::whole, anything_seen);
+}
+
+GBuffer add_simplified_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera) {
+    return add(graph, context, camera, gpu::Geometry::simplified, nullptr);
 }
 
 void read_gbuffer(PassBuilder& builder, const GBuffer& gbuffer) {

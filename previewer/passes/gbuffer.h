@@ -16,6 +16,9 @@ struct GBuffer {
 
 [[nodiscard]] GBuffer add_gbuffer(FrameGraph& graph, const PassContext& context, const View& camera,
                                   bool* anything_seen = nullptr);
+// The same of the simplified meshes, without emission.
+[[nodiscard]] GBuffer add_simplified_gbuffer(FrameGraph& graph, const PassContext& context,
+                                             const View& camera);
 
 // For passes that read it: declares, then binds.
 void read_gbuffer(PassBuilder& builder, const GBuffer& gbuffer);

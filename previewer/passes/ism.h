@@ -44,6 +44,7 @@ struct VplSet {
     int interleave = 1;    // n: each pixel gathers from an n x n-th of the lights
     int subset = 0;        // lights in such a part
     int cell_columns = 1;  // of a subset's cells of the sampled square
+    bool image = false;    // those of the world's image: what they light has its reflection from the image
     bool distant = false;  // lights at infinity, with orthographic maps (renderer/world_lights.h)
 };
 

@@ -56,7 +56,7 @@ std::vector<Run> seen_draws(const gpu::GpuScene& scene, const gpu::DrawBatch& ba
 }
 
 void draw_batches(const PassContext& context, const View* view, bool mirrored, DrawKind kind,
-                  const std::string& fragment, const gl::Defines& defines) {
+                  const std::string& fragment, const gl::Defines& defines, gpu::Geometry geometry) {
     context.scene.bind();
     glEnable(GL_DEPTH_TEST);
     // A light inside its own near plane must not see through what stands there.
@@ -83,7 +83,7 @@ void draw_batches(const PassContext& context, const View* view, bool mirrored, D
             glDisable(GL_CULL_FACE);
         }
         for (const Run& run : runs) {
-            gpu::GpuScene::draw(batch, run.first, run.count);
+            gpu::GpuScene::draw(batch, run.first, run.count, geometry);
         }
     }
     glDisable(GL_CULL_FACE);
@@ -98,14 +98,14 @@ gl::Defines light_defines(const LightPass& light) {
 }
 
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
-                const gl::Defines& defines) {
+                const gl::Defines& defines, gpu::Geometry geometry) {
     context.uniforms.bind(UBO_VIEW, view.uniforms);
-    draw_batches(context, &view, view.mirrored, kind, fragment, defines);
+    draw_batches(context, &view, view.mirrored, kind, fragment, defines, geometry);
 }
 
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
-                  const gl::Defines& defines) {
-    draw_batches(context, nullptr, mirrored, kind, fragment, defines);
+                  const gl::Defines& defines, gpu::Geometry geometry) {
+    draw_batches(context, nullptr, mirrored, kind, fragment, defines, geometry);
 }
 
 void dispatch_2d(int width, int height) {

@@ -6,6 +6,7 @@
 
 #include "frame_graph/frame_graph.h"
 #include "gl/program.h"
+#include "gpu/environment_maps.h"
 #include "gpu/gpu_scene.h"
 #include "gpu/uniform_arena.h"
 
@@ -42,9 +43,16 @@ struct LightPass {
     int rsm_size = 0;
     int shadow_size = 0;
     bool casts_shadow = true;
+    bool glossy = true;  // false: its reflection is drawn with the world's image
     SoftMaps soft;
     // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.
     double flux_w = 0.0;
+};
+
+// The world's image, where it is drawn.
+struct WorldImage {
+    const gpu::EnvironmentMaps* maps = nullptr;
+    gpu::UniformArena::Slot uniforms;  // WorldUniforms
 };
 
 // What every pass needs; valid for the frame.
@@ -64,10 +72,10 @@ struct PassContext {
 // batch's features; depth_only batches take their fragment shader only where an alpha test needs it.
 enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth, seen_depth };
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
-                const gl::Defines& defines);
+                const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 // All of the scene, with ViewUniforms that the caller has bound.
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
-                  const gl::Defines& defines);
+                  const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 
 // Work groups that cover a picture, and the barrier after which everything written is seen.
 void dispatch_2d(int width, int height);

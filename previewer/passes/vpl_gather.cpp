@@ -17,7 +17,7 @@ gl::Defines gather_defines(const PassContext& context, const VplGatherInputs& in
     if (inputs.slope_bias) defines["SLOPE_BIAS"] = "1";
     if (set.distant) defines["DISTANT"] = "1";
     if (inputs.near_field && &set == &inputs.sets.front()) defines["NEAR_FIELD"] = "1";
-    if (inputs.glossy) defines["GLOSSY"] = "1";
+    if (inputs.glossy) defines[set.image ? "ENVIRONMENT" : "GLOSSY"] = "1";
     if (inputs.removed) defines["REMOVED"] = "1";
     if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
     return defines;
@@ -30,6 +30,7 @@ void dispatch_chunks(const PassContext& context, const VplSet& set, gl::Defines 
     for (int first = 0; first < set.subset; first += VPL_CHUNK) {
         defines["CHUNK"] = std::to_string(std::min(VPL_CHUNK, set.subset - first));
         if (!first_set || first > 0) defines["NEXT_CHUNK"] = "1";
+        if (first > 0) defines["NEXT_LOBES"] = "1";
         context.programs.compute("passes/vpl_gather.comp", defines).use();
         for (int subset = 0; subset < n * n; ++subset) {
             glUniform2i(0, subset, subset * set.subset + first);
@@ -51,6 +52,11 @@ GatheredLight add_vpl_gather(FrameGraph& graph, const PassContext& context, cons
             if (set.atlas.valid()) builder.read(set.atlas);
         }
         out.bounced = create_bounced(builder, context);
+        const bool image =
+            std::any_of(inputs.sets.begin(), inputs.sets.end(), [](const VplSet& s) { return s.image; });
+        if (image && inputs.glossy) {
+            out.lobes = create_bounced(builder, context);
+        }
         if (inputs.near_field) {
             out.reach = builder.create_texture(
                 "near reach", {.format = GL_R16F, .width = context.width, .height = context.height});
@@ -59,8 +65,13 @@ GatheredLight add_vpl_gather(FrameGraph& graph, const PassContext& context, cons
             context.uniforms.bind(UBO_FRAME, context.frame);
             bind_gbuffer(resources, inputs.gbuffer);
             resources.texture(out.bounced).bind_image(IMG_OUT, GL_READ_WRITE);
-            if (inputs.near_field) resources.texture(out.reach).bind_image(IMG_OUT1, GL_READ_WRITE);
             for (const VplSet& set : inputs.sets) {
+                if (inputs.near_field && &set == &inputs.sets.front()) {
+                    resources.texture(out.reach).bind_image(IMG_OUT1, GL_READ_WRITE);
+                }
+                if (set.image && out.lobes.valid()) {
+                    resources.texture(out.lobes).bind_image(IMG_LOBES, GL_READ_WRITE);
+                }
                 context.uniforms.bind(UBO_ISM, set.uniforms);
                 resources.buffer(set.vpls).bind_storage(SSBO_VPLS);
                 if (set.atlas.valid()) resources.texture(set.atlas).bind_image(IMG_ISM, GL_READ_ONLY);

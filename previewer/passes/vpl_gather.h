@@ -20,6 +20,8 @@ struct VplGatherInputs {
 // Bounced light (RGBA32UI, shaders/lib/bounced.glsl), interleaved over n x n pixels.
 struct GatheredLight {
     TextureHandle bounced;
+    TextureHandle
+        lobes;  // where a set is of the world's image and lobes count: what of them is seen (RGBA32UI)
     TextureHandle reach;  // R16F: near radius of the lights that are near; invalid without near_field
 };
 [[nodiscard]] GatheredLight add_vpl_gather(FrameGraph& graph, const PassContext& context,

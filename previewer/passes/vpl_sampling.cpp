@@ -12,6 +12,7 @@ struct Source {
     gl::Defines defines;
     int size = 0;  // texels a row
     int rows = 0;
+    glm::vec2 share{0.0F, 1.0F};  // uniform: which part of the sequence's first coordinate is this source's
     std::function<void(PassBuilder&)> declare;
     std::function<void(const PassResources&)> bind;
 };
@@ -23,7 +24,9 @@ gl::Defines with_lobes(gl::Defines defines, const PassContext& context, bool glo
 }
 
 DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vector<Source>& sources,
-                   const VplSet& layout, const std::string& of, bool even_rows) {
+                   const VplSet& layout, const std::string& of, bool even_rows,
+                   VplSampling sampling = VplSampling::inverse_transform) {
+    const bool uniform = sampling == VplSampling::uniform;
     int rows = 0;
     size_t texels = 0;
     for (const Source& source : sources) {
@@ -73,17 +76,26 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
         for (const Source& source : sources) {
             source.declare(builder);
         }
-        builder.read(sums);
-        builder.read(texel_sums);
+        if (!uniform) {
+            builder.read(sums);
+            builder.read(texel_sums);
+        }
         const BufferHandle vpls =
             builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
         out.set.vpls = vpls;
-        return [context, for_each, layout, rows, sums, texel_sums, vpls](const PassResources& resources) {
+        return [context, for_each, layout, rows, sums, texel_sums, vpls,
+                uniform](const PassResources& resources) {
             for_each([&](const Source& source, int row, int texel) {
-                context.programs.compute("passes/vpl_draw.comp", source.defines).use();
+                gl::Defines defines = source.defines;
+                if (uniform) defines["HALTON"] = "1";
+                context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
-                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                if (uniform) {
+                    glUniform2f(3, source.share.x, source.share.y);
+                } else {
+                    resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+                    resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                }
                 resources.buffer(vpls).bind_storage(SSBO_VPLS_OUT);
                 glUniform4i(0, row, source.rows, rows, texel);
                 glUniform3i(1, layout.interleave, layout.subset, layout.cell_columns);
@@ -118,19 +130,29 @@ BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const Vp
 }  // namespace
 
 DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
-                             const std::vector<VplSource>& sources, VplSet layout, bool glossy) {
+                             const std::vector<VplSource>& sources, VplSet layout, bool glossy,
+                             VplSampling sampling) {
     std::vector<Source> all;
+    double flux = 0.0;
+    for (const VplSource& source : sources) {
+        flux += source.light.flux_w;
+    }
+    double before = 0.0;
     for (const VplSource& source : sources) {
         const LightPass& light = source.light;
+        const bool last = &source == &sources.back();
+        const double after = last ? flux : before + light.flux_w;
+        const glm::vec2 share(glm::dvec2(before, after) / flux);
+        before = after;
         all.push_back({with_lobes(light_defines(light), context, glossy), light.rsm_size,
-                       light.rsm_size * static_cast<int>(light.faces.size()),
+                       light.rsm_size * static_cast<int>(light.faces.size()), share,
                        [source](PassBuilder& builder) { builder.read(source.rsm); },
                        [context, source](const PassResources& resources) {
                            context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
                            resources.texture(source.rsm).bind(TEX_RSM);
                        }});
     }
-    return add_vpls(graph, context, all, layout, "", false);
+    return add_vpls(graph, context, all, layout, "", false, sampling);
 }
 
 DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, const IrsmSource& source,
@@ -145,8 +167,10 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
         defines["VISIBILITY"] = "1";
         if (source.slope_bias) defines["SLOPE_BIAS"] = "1";
     }
-    const Source only{with_lobes(defines, context, glossy), splatted ? source.set.map_size : source.set.maps,
+    const Source only{with_lobes(defines, context, glossy),
+                      splatted ? source.set.map_size : source.set.maps,
                       splatted ? source.set.map_size * source.set.maps : source.set.points_a_map,
+                      glm::vec2(0.0F, 1.0F),
                       [source, map](PassBuilder& builder) {
                           if (map.valid()) builder.read(map);
                           builder.read(source.set.vpls);

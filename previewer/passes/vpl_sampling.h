@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/ism.h"
+#include "passes/vpl_maps.h"
 
 namespace bounce::passes {
 
@@ -31,13 +32,16 @@ struct VplImportance {
 
 // Virtual point lights (GpuVpl) drawn in proportion to the flux that the maps reflect; together they have all
 // of it. Without any flux all are dark. `layout` says how many and where they go; returns it with the buffer
-// filled in. glossy: glossy reflection counts and is kept.
+// filled in. glossy: glossy reflection counts and is kept. sampling uniform: texels at the points of the
+// two-dimensional Halton sequence instead, each with an equal part of the map; lights share its points in
+// proportion to what they send out. The running sums are there all the same, for what reads them.
 struct DrawnVpls {
     VplSet set;
     VplImportance importance;
 };
 [[nodiscard]] DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
-                                           const std::vector<VplSource>& sources, VplSet layout, bool glossy);
+                                           const std::vector<VplSource>& sources, VplSet layout, bool glossy,
+                                           VplSampling sampling);
 [[nodiscard]] DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context,
                                             const IrsmSource& source, VplSet layout, bool glossy);
 

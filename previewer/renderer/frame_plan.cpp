@@ -239,6 +239,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     }
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
+    plan.environment = plan.world_light && scene.environment.has_value();
     plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
     if (!plan.world_occluded) {
         plan.left_out.push_back({"world lights", !plan.world_light && whole ? "the world is black"
@@ -261,6 +262,19 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
                   (settings.glossy_bounces || settings.technique != Technique::ism);
     plan.occluded = (plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0) &&
                     settings.visibility != Visibility::none;
+    const bool lit = plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0;
+    plan.hybrid = lit && settings.shading == Shading::hybrid;
+    plan.simplified = plan.hybrid || ((plan.occluded || plan.emitters_occluded) &&
+                                      settings.visibility == Visibility::simplified);
+    if (settings.simplifies() && !plan.simplified) {
+        plan.left_out.push_back({"simplified meshes", "no bounced light is drawn by them"});
+    }
+    if (!plan.environment) {
+        plan.left_out.push_back(
+            {"world image", scene.environment ? "the world's light is not shown" : "the world has no image"});
+    } else if (!plan.world_occluded) {
+        plan.approximations.emplace_back("the world's image lights with its mean colour");
+    }
     if (plan.world_light && !plan.world_occluded) {
         plan.approximations.emplace_back("the world's light is not occluded");
     } else if (!plan.world_light && whole) {

@@ -21,6 +21,8 @@ struct FramePlan {
     bool indirect = false;      // any bounced light
     bool vpls = false;          // bounced light by virtual point lights
     bool occluded = false;      // these, or those of the world's bounces, are occluded
+    bool hybrid = false;        // gathered where simplified meshes are seen
+    bool simplified = false;    // some pass draws simplified meshes
     int bounces = 0;            // of light by virtual point lights
     bool glossy = false;        // with the glossy lobes of lights and receivers
     bool narrow_lobes = false;  // some so narrow that they change within a block of interleaved pixels
@@ -32,6 +34,7 @@ struct FramePlan {
     bool emission = false;
     bool world_light = false;     // the world is not black
     bool world_occluded = false;  // and stands as virtual point lights
+    bool environment = false;     // and drawn with its image
     int world_bounces = 0;        // of its light
     bool receives = false;        // some surface reflects light, by whatever lobe
     bool emitters = false;        // emissive surfaces light others

@@ -81,8 +81,11 @@ passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const pass
 passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
                           const passes::VplSet& set) {
     passes::IsmAtlas maps;
-    if (in.settings.technique == Technique::ism && in.settings.visibility == Visibility::shadow_maps) {
-        maps.atlas = passes::add_classic_maps(graph, in.context, set);
+    if (in.settings.technique == Technique::ism && in.settings.draws_triangle_maps()) {
+        const bool simplified = in.settings.visibility == Visibility::simplified;
+        maps.atlas = passes::add_classic_maps(graph, in.context, set,
+                                              simplified ? gpu::Geometry::simplified : gpu::Geometry::whole,
+                                              in.settings.map_projection);
     } else {
         maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
     }
@@ -168,8 +171,8 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     lit.slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks;
     for (size_t i = 0; i < in.bounces.size(); ++i) {
         if (i == 0) {
-            const DrawnVpls drawn =
-                add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights, in.plan.glossy);
+            const DrawnVpls drawn = add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights,
+                                                       in.plan.glossy, in.settings.vpl_sampling);
             lit.importance = drawn.importance;
             add_lights(graph, in, scene, drawn.set, lit);
         } else {
@@ -184,8 +187,14 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     return lit;
 }
 
+// What the gather makes, filtered.
+struct FilteredLight {
+    TextureHandle bounced;
+    TextureHandle lobes;
+};
+
 // Light of all bounces at once.
-TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                                 const std::vector<passes::VplSource>& sources, const BouncedLights& lit,
                                 const Emitted& emitted) {
     using namespace passes;
@@ -213,9 +222,13 @@ TextureHandle add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
     }
     const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
-        return bounced;
+        return {bounced, light.lobes};
     }
-    return add_bounced_blur(graph, context, gbuffer, bounced, interleave, in.plan.narrow_lobes);
+    const auto blur = [&](TextureHandle of) {
+        return of.valid() ? add_bounced_blur(graph, context, gbuffer, of, interleave, in.plan.narrow_lobes)
+                          : of;
+    };
+    return {blur(bounced), blur(light.lobes)};
 }
 
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
@@ -301,6 +314,8 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         return;
     }
     const GBuffer gbuffer = add_gbuffer(graph, context, in.camera, in.anything_seen);
+    // Where bounced light is gathered.
+    const GBuffer lit_surfaces = in.plan.hybrid ? add_simplified_gbuffer(graph, context, in.camera) : gbuffer;
 
     TextureHandle direct;
     GatherInputs gather{.gbuffer = gbuffer, .sources = {}, .full_sum = in.settings.rsm_full_sum};
@@ -327,6 +342,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
 
     TextureHandle irradiance;
     TextureHandle bounced;
+    TextureHandle lobes;
     BouncedLights lit;
     const ScenePoints scene =
         in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
@@ -348,19 +364,21 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            bounced = add_bounced_light(graph, in, gbuffer, sources, lit, emitted);
+            const FilteredLight light = add_bounced_light(graph, in, lit_surfaces, sources, lit, emitted);
+            bounced = light.bounced;
+            lobes = light.lobes;
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
-            const TextureHandle removed = add_removed(graph, in, gbuffer, lit, emitted);
+            const TextureHandle removed = add_removed(graph, in, lit_surfaces, lit, emitted);
             if (in.removed != nullptr && bounced.valid()) {
-                add_removed_light(graph, context, gbuffer, bounced, removed, in.removed);
+                add_removed_light(graph, context, lit_surfaces, bounced, removed, in.removed);
             }
             const int interleave = lit.sets.front().interleave;
             if (in.settings.show == Show::removed) {
-                bounced =
-                    removed.valid() && interleave > 1
-                        ? add_bounced_blur(graph, context, gbuffer, removed, interleave, in.plan.narrow_lobes)
-                        : removed;
+                bounced = removed.valid() && interleave > 1
+                              ? add_bounced_blur(graph, context, lit_surfaces, removed, interleave,
+                                                 in.plan.narrow_lobes)
+                              : removed;
             }
         }
     } else if (in.plan.indirect && in.plan.interpolate) {
@@ -379,7 +397,14 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
 
     if (!lights_bounce && (in.plan.world_occluded || in.plan.emitters)) {
-        bounced = add_bounced_light(graph, in, gbuffer, {}, lit, emitted);
+        const FilteredLight light = add_bounced_light(graph, in, gbuffer, {}, lit, emitted);
+        bounced = light.bounced;
+        lobes = light.lobes;
+    }
+    TextureHandle reflected;
+    if (in.plan.hybrid && bounced.valid()) {
+        reflected = add_reflected(graph, context, lit_surfaces, bounced);
+        bounced = {};
     }
     const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
     TextureHandle picture = add_composite(graph, context,
@@ -387,6 +412,9 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
                                            .direct = direct,
                                            .irradiance = irradiance,
                                            .bounced = bounced,
+                                           .lobes = lobes,
+                                           .image = in.image,
+                                           .radiance = reflected,
                                            .world_light = in.plan.world_light && !in.plan.world_occluded,
                                            .emission = in.plan.emission && whole},
                                           in.plan.antialias ? TextureHandle{} : in.target);

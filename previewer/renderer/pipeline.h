@@ -33,6 +33,7 @@ struct PipelineInputs {
     std::vector<Bounce> bounces;                         // plan.bounces of them
     Bounce world;                                        // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
+    passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
     gpu::EmitterStore* emitter_store = nullptr;
     Bounce emitters;                      // where plan.emitters

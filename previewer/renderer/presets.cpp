@@ -35,6 +35,26 @@ Settings preset_settings(Preset preset) {
             out.near_field = false;
             out.glossy_bounces = false;
             break;
+        case Preset::lv2009:
+            // Section IV.B: 256 lights with maps of 256 x 256 texels. Section III: one bounce of what
+            // surfaces reflect diffusely, from texels of maps of 512 x 512 at the points of the Halton
+            // sequence, with paraboloid maps of simplified meshes, in every pixel; its better one of two ways
+            // to shade. Direct light's maps have 512 x 512 as well.
+            out.technique = Technique::ism;
+            out.vpls = 256;
+            out.vpl_sampling = VplSampling::uniform;
+            out.visibility = Visibility::simplified;
+            out.map_projection = MapProjection::paraboloid;
+            out.ism_size = 256;
+            out.rsm_size = 512;
+            out.shading = Shading::deferred;
+            out.soft_shadow_size = 512;
+            out.interleave = 1;
+            out.world_vpls = 0;  // the paper has no light from all around
+            out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces
+            out.near_field = false;
+            out.glossy_bounces = false;
+            break;
     }
     return out;
 }

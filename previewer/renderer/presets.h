@@ -9,6 +9,8 @@ namespace bounce {
 enum class Preset {
     automatic,  // ours
     rsm2005,    // Dachsbacher and Stamminger 2005, "Reflective Shadow Maps"
+    lv2009,     // Lv et al. 2009, "A Fast Method for Real-time Computation of Approximated Global
+                // Illumination"
     ism2008,    // Ritschel et al. 2008, "Imperfect Shadow Maps for Efficient Computation of Indirect
                 // Illumination"
 };

@@ -151,7 +151,11 @@ passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, 
 
 }  // namespace
 
-Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {}
+Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene) {
+    if (scene.environment) {
+        environment_ = std::make_unique<EnvironmentWorld>(*scene.environment);
+    }
+}
 Renderer::~Renderer() = default;
 
 // How far before its surface the light of an emissive panel stands, of the scene's diagonal: ten roundings of
@@ -290,9 +294,10 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     if (plan.world_occluded) {
         const IsmLayout layout = world_layout(settings, first.points_a_map);
+        const DistantMaps maps = distant_maps(points_->ground(pose).rest, gpu_scene_.space());
         const std::vector<gpu::GpuVpl> made =
-            world_lights(pose.world.color * pose.world.strength, layout,
-                         distant_maps(points_->ground(pose).rest, gpu_scene_.space()));
+            environment_ ? environment_->lights(pose.world, layout, maps)
+                         : world_lights(pose.world.color * pose.world.strength, layout, maps);
         world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
         // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
         // are.
@@ -301,6 +306,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         disks.splat_irsms = false;
         out.world = make_bounce(layout, disks);
         out.world.lights.distant = true;
+        out.world.lights.image = environment_ != nullptr;
     }
     for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
         out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
@@ -326,8 +332,18 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
     return found->second;
 }
 
-FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view, const Settings& settings,
+FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing, const Moment* before) {
+    // Without the lights at infinity all of the image counts as its mean colour, its suns as well.
+    if (environment_ && environment_->has_suns() && settings.world_vpls > 0 && pose.world.strength > 0.0F) {
+        return render_lit(environment_->with_suns(pose), view, settings, timing, before,
+                          pose.light_instances.size());
+    }
+    return render_lit(pose, view, settings, timing, before, pose.light_instances.size());
+}
+
+FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& view, const Settings& settings,
+                                 gl::TimingMode timing, const Moment* before, size_t own_lights) {
     FrameReport report;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
@@ -363,6 +379,11 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
         plan.left_out.push_back({"emitter lights", "all that emits is drawn as area lights"});
     }
     report.approximations = plan.approximations;
+    if (plan.simplified) {
+        gpu_scene_.simplify(settings.simplify);
+        report.simplified_triangles = gpu_scene_.simplified_triangles();
+        report.simplified_error_m = gpu_scene_.simplified_error_m();
+    }
 
     // Everything the passes read from uniform blocks, uploaded at once.
     uniforms_.clear();
@@ -394,6 +415,8 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
+        // What suns of the world's image reflect is in the image's own reflection; panels come after them.
+        pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
         if (plan.soft[i]) {
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
@@ -424,6 +447,11 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
         gather_frames.push_back(frame_slot(samples[i]));
         patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
+    }
+    passes::WorldImage image;
+    if (plan.environment) {
+        image.maps = &environment_->maps(*scene_.environment, programs_);
+        image.uniforms = uniforms_.add(environment_->uniforms(pose.world));
     }
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
@@ -461,6 +489,7 @@ FrameReport Renderer::render(const scene::Pose& of_scene, const CameraView& view
                     .bounces = bounces.bounces,
                     .world = bounces.world,
                     .world_lights = &world_lights_,
+                    .image = image,
                     .world_bounces = bounces.world_bounces,
                     .emitter_store = emitters_.get(),
                     .emitters = bounces.emitters,

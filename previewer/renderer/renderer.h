@@ -19,6 +19,7 @@
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
 #include "renderer/camera_view.h"
+#include "renderer/environment_world.h"
 #include "renderer/frame_plan.h"
 #include "renderer/pipeline.h"
 #include "renderer/previous_frame.h"
@@ -33,7 +34,9 @@ struct FrameReport {
     std::vector<LeftOut> left_out;  // planned and culled
     std::vector<std::string> approximations;
     size_t triangles = 0;
-    int rsm_samples = 0;  // a pixel, over all lights
+    size_t simplified_triangles = 0;  // of the simplified meshes, where some pass draws them
+    double simplified_error_m = 0.0;  // the largest distance a surface moved when it was simplified
+    int rsm_samples = 0;              // a pixel, over all lights
     int lights = 0;
     int gathered_pixels = -1;  // evaluated in full after interpolation; -1 where not counted
 
@@ -83,6 +86,10 @@ class Renderer {
         std::vector<Bounce> emitter_bounces;
         int triangles = 0;  // large ones in the maps of lights within the scene
     };
+    // own_lights: as many of the pose's light instances, the first, are the scene's; the others are suns of
+    // the world's image.
+    FrameReport render_lit(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
+                           gl::TimingMode timing, const Moment* before, size_t own_lights);
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
     LitBounces prepare_bounces(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
@@ -106,7 +113,8 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
-    scene::EmissivePanels panels_;  // of so many sides at most
+    std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
+    scene::EmissivePanels panels_;                   // of so many sides at most
     int most_panels_ = -1;
 };
 

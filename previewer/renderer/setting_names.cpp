@@ -12,8 +12,31 @@ const std::map<std::string, Technique>& setting_names<Technique>() {
 
 template <>
 const std::map<std::string, Visibility>& setting_names<Visibility>() {
-    static const std::map<std::string, Visibility> names = {
-        {"none", Visibility::none}, {"ism", Visibility::ism}, {"shadow-maps", Visibility::shadow_maps}};
+    static const std::map<std::string, Visibility> names = {{"none", Visibility::none},
+                                                            {"ism", Visibility::ism},
+                                                            {"shadow-maps", Visibility::shadow_maps},
+                                                            {"simplified", Visibility::simplified}};
+    return names;
+}
+
+template <>
+const std::map<std::string, Shading>& setting_names<Shading>() {
+    static const std::map<std::string, Shading> names = {{"deferred", Shading::deferred},
+                                                         {"hybrid", Shading::hybrid}};
+    return names;
+}
+
+template <>
+const std::map<std::string, VplSampling>& setting_names<VplSampling>() {
+    static const std::map<std::string, VplSampling> names = {
+        {"inverse-transform", VplSampling::inverse_transform}, {"uniform", VplSampling::uniform}};
+    return names;
+}
+
+template <>
+const std::map<std::string, MapProjection>& setting_names<MapProjection>() {
+    static const std::map<std::string, MapProjection> names = {{"faces", MapProjection::faces},
+                                                               {"paraboloid", MapProjection::paraboloid}};
     return names;
 }
 

@@ -10,7 +10,8 @@
 
 namespace bounce {
 
-// For Technique, Visibility, DirectShadows, Splat, PullPush, Show and passes::RsmPattern.
+// For Technique, Visibility, Shading, VplSampling, MapProjection, DirectShadows, Splat, PullPush, Show and
+// passes::RsmPattern.
 template <typename T>
 [[nodiscard]] const std::map<std::string, T>& setting_names();
 
@@ -28,6 +29,12 @@ template <>
 [[nodiscard]] const std::map<std::string, Technique>& setting_names<Technique>();
 template <>
 [[nodiscard]] const std::map<std::string, Visibility>& setting_names<Visibility>();
+template <>
+[[nodiscard]] const std::map<std::string, Shading>& setting_names<Shading>();
+template <>
+[[nodiscard]] const std::map<std::string, VplSampling>& setting_names<VplSampling>();
+template <>
+[[nodiscard]] const std::map<std::string, MapProjection>& setting_names<MapProjection>();
 template <>
 [[nodiscard]] const std::map<std::string, DirectShadows>& setting_names<DirectShadows>();
 template <>

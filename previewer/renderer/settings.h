@@ -3,6 +3,8 @@
 
 #include "passes/ism.h"
 #include "passes/rsm_pattern.h"
+#include "passes/vpl_maps.h"
+#include "scene/simplify.h"
 
 namespace bounce {
 
@@ -17,6 +19,13 @@ enum class Visibility {
     none,
     ism,          // imperfect shadow maps
     shadow_maps,  // maps of the same size drawn from triangles: the reference, slow
+    simplified,   // the same, from fewer triangles (scene/simplify.h)
+};
+
+// What bounced light is gathered on.
+enum class Shading {
+    deferred,  // what the camera sees
+    hybrid,    // what it would see of the simplified meshes (Lv et al. 2009)
 };
 
 // How lights with a size throw shadows.
@@ -27,6 +36,8 @@ enum class DirectShadows {
 
 using Splat = passes::Splat;
 using PullPush = passes::PullPush;
+using VplSampling = passes::VplSampling;
+using MapProjection = passes::MapProjection;
 
 // What the colour target shows.
 enum class Show {
@@ -95,7 +106,11 @@ struct Settings {
     int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
     int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
     int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most
+    VplSampling vpl_sampling = VplSampling::inverse_transform;  // of the first bounce
+    Shading shading = Shading::deferred;
+    scene::Simplification simplify{};  // of meshes that are drawn simplified
     Visibility visibility = Visibility::ism;
+    MapProjection map_projection = MapProjection::faces;  // of maps drawn from triangles
     Splat splat = Splat::disks;
     bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper
     int ism_size = 64;         // texels a side of each map
@@ -125,6 +140,15 @@ struct Settings {
     bool find_unlit =
         false;  // says where nothing is seen, and where nothing that reflects is lit; costs a wait
 
+    // Maps of virtual point lights are drawn from triangles.
+    [[nodiscard]] bool draws_triangle_maps() const {
+        return visibility == Visibility::shadow_maps || visibility == Visibility::simplified;
+    }
+    // Some pass of virtual point lights draws simplified meshes.
+    [[nodiscard]] bool simplifies() const {
+        return technique == Technique::ism &&
+               (visibility == Visibility::simplified || shading == Shading::hybrid);
+    }
     [[nodiscard]] int used_rsm_size() const {
         return rsm_size > 0 ? rsm_size : technique == Technique::ism ? 256 : 512;
     }

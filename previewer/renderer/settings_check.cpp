@@ -49,10 +49,26 @@ std::string ism_refusal(const Settings& s) {
             return refusal;
         }
     }
-    if (s.ism_size < k_least_ism_size || s.ism_size > k_most_ism_size ||
+    const int most_size = s.draws_triangle_maps() ? k_most_triangle_map_size : k_most_ism_size;
+    if (s.ism_size < k_least_ism_size || s.ism_size > most_size ||
         !std::has_single_bit(static_cast<unsigned>(s.ism_size))) {
         return fmt::format("--ism-size is {}; give a power of two from {} to {}", s.ism_size,
-                           k_least_ism_size, k_most_ism_size);
+                           k_least_ism_size, most_size);
+    }
+    if (s.ism_size > k_most_ism_size && s.world_vpls > 0) {
+        return fmt::format(
+            "--ism-size is {}, but the world's maps, which are drawn from points, have {} at most; give "
+            "--world-vpls 0",
+            s.ism_size, k_most_ism_size);
+    }
+    // NaN is refused, too.
+    if (!(s.simplify.ratio >= 0.0 && s.simplify.ratio <= 1.0)) {
+        return fmt::format("--simplify is {:g}; give a share of the triangles above 0 to 1, or auto",
+                           s.simplify.ratio);
+    }
+    if (!(s.simplify.error > 0.0 && s.simplify.error <= 1.0)) {
+        return fmt::format("--simplify-error is {:g}; give a part of a mesh's extent above 0 to 1",
+                           s.simplify.error);
     }
     if (s.ism_points < 0 || s.ism_points > k_most_points_a_map) {
         return fmt::format("--points is {}; give a number from 1 to {}, or auto", s.ism_points,
@@ -74,7 +90,7 @@ std::string ism_refusal(const Settings& s) {
 
 // The largest map size at which an atlas of so many maps fits; 0 where none does.
 int fitting_size(int columns, int texture_size) {
-    int size = k_most_ism_size;
+    int size = k_most_triangle_map_size;
     while (size >= k_least_ism_size && columns * size > texture_size) {
         size /= 2;
     }
@@ -176,8 +192,8 @@ std::string layer_refusal(const Settings& s) {
     if (of_maps && s.visibility == Visibility::none) {
         return "visibility none has no shadow maps of virtual point lights";
     }
-    if (s.show == Show::ism_splats && s.visibility == Visibility::shadow_maps) {
-        return "visibility shadow-maps splats nothing";
+    if (s.show == Show::ism_splats && s.draws_triangle_maps()) {
+        return fmt::format("visibility {} splats nothing", name_of(s.visibility));
     }
     if (s.show == Show::ism_splats && s.splat == Splat::disks) {
         return "disks are drawn without pull-push, so there is nothing to be seen before it; layer ism is "

@@ -16,6 +16,7 @@ constexpr int k_most_emitter_panels = 64;   // each is a light with shadow maps 
 constexpr int k_most_points_a_map = 65536;  // a point's place in its map is kept in 16 bits
 constexpr int k_least_ism_size = 32;
 constexpr int k_most_ism_size = 256;
+constexpr int k_most_triangle_map_size = 1024;  // as in Table I of Lv et al. 2009
 constexpr int k_most_bounces = 4;
 constexpr int k_most_rsm_samples = 1 << 15;  // llvmpipe ends a loop after 65,535 iterations
 constexpr int k_most_samples = 4096;

@@ -3,6 +3,7 @@
 // The world as virtual point lights at infinity (Ritschel et al. 2008, 5.1).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -17,6 +18,16 @@ struct DistantMaps {
     glm::vec3 center{0.0F};
     float reach = 0.0F;  // half of the cube's side
 };
+
+constexpr uint32_t k_world_lights_seed = 0x57a125U;
+
+// A unit vector across another, turned about it by an angle (radians).
+[[nodiscard]] glm::dvec3 turned_tangent(const glm::dvec3& way, double turn);
+
+// Number `index` of the layout's lights at infinity, still without light: it travels along the unit vector
+// `way`, and `tangent` is the s axis of its map.
+[[nodiscard]] gpu::GpuVpl distant_light(const glm::dvec3& way, const glm::dvec3& tangent, int index,
+                                        const IsmLayout& layout, const DistantMaps& maps);
 
 // Lights that together are a world of one radiance (rgb, W/(m^2 sr)): layout.vpls directions, each for the
 // same solid angle, 4 pi in all; every subset of them is spread evenly over the sphere. normal is the way the

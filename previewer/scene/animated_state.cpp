@@ -16,6 +16,11 @@ glm::dvec3 as_dvec3(const Values& values) {
     return glm::dvec3(as_vec3(values));
 }
 
+glm::dquat rotation_of(const Values& values) {
+    return normalized_rotation(glm::dquat(static_cast<double>(values[3]), static_cast<double>(values[0]),
+                                          static_cast<double>(values[1]), static_cast<double>(values[2])));
+}
+
 void set_node(AnimatedState& state, Property property, size_t index, Values values) {
     Transform& local = state.locals[index];
     switch (property) {
@@ -23,9 +28,7 @@ void set_node(AnimatedState& state, Property property, size_t index, Values valu
             local.translation = as_dvec3(values);
             break;
         case Property::node_rotation:
-            local.rotation = normalized_rotation(
-                glm::dquat(static_cast<double>(values[3]), static_cast<double>(values[0]),
-                           static_cast<double>(values[1]), static_cast<double>(values[2])));
+            local.rotation = rotation_of(values);
             break;
         case Property::node_scale:
             local.scale = as_dvec3(values);
@@ -165,6 +168,9 @@ void set(AnimatedState& state, Pose& pose, const AnimationChannel& channel, Valu
         case Property::world_strength:
             pose.world.strength = values[0];
             break;
+        case Property::world_rotation:
+            pose.world.world_from_environment = rotation_of(values);
+            break;
         case Property::view_exposure:
             pose.view.exposure = values[0];
             break;
@@ -196,7 +202,8 @@ void play(const Scene& scene, double time_s, int animation, AnimatedState& state
         for (const AnimationChannel& channel : clip.channels) {
             set(state, pose, channel,
                 sample(clip.samplers[static_cast<size_t>(channel.sampler)], time_s,
-                       channel.property == Property::node_rotation));
+                       channel.property == Property::node_rotation ||
+                           channel.property == Property::world_rotation));
         }
     }
 }

@@ -40,6 +40,7 @@ enum class Property {
     material_emission_strength,
     world_color,
     world_strength,
+    world_rotation,
     view_exposure,
 };
 

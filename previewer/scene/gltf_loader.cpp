@@ -40,7 +40,7 @@ LoadResult load(const std::filesystem::path& path) {
     gltf::read_skins(source, accessors, scene);
     const std::vector<int> khr_lights = gltf::read_lights(source, scene);
     gltf::read_animations(source, accessors, khr_lights, scene);
-    gltf::read_scene_settings(source, scene);
+    gltf::read_scene_settings(source, buffers, scene);
     LoadResult result{std::move(scene), {}, std::move(source.warnings)};
     for (const nlohmann::json& name : gltf::list(source.json(), "extensionsUsed")) {
         result.extensions_used.push_back(name.get<std::string>());

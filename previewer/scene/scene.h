@@ -164,9 +164,22 @@ struct Light {
     bool cast_shadow = true;
 };
 
+// Radiance, W/(m^2 sr), is color * strength in all directions; with Scene::environment it is that image's
+// times strength, and color is the image's mean.
 struct World {
     glm::vec3 color{0.0F};
     float strength = 1.0F;
+    glm::dquat world_from_environment{1.0, 0.0, 0.0, 0.0};  // turns the image about the scene
+};
+
+// An equirectangular image of the world, RGB interleaved, rows from top (up) to bottom, scene-linear; finite
+// and not negative. Without a turn the middle of its width is seen along +X (Blender's too), a quarter of it
+// along -Z (Blender's +Y).
+struct Environment {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgb;
 };
 
 enum class SensorFit { automatic, horizontal, vertical };
@@ -269,6 +282,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<Animation> animations;
     World world;
+    std::optional<Environment> environment;
     FrameRange frames;
     RenderSettings render;
     ViewSettings view;

@@ -60,12 +60,17 @@ bool vpl_settings(Settings& settings) {
     changed |= ImGui::Checkbox("near field", &settings.near_field);
     changed |= ImGui::Checkbox("glossy lobes", &settings.glossy_bounces);
     changed |=
-        choose("visibility", std::array{"none", "imperfect maps", "maps of triangles"}, settings.visibility);
+        choose("visibility", std::array{"none", "imperfect maps", "maps of triangles", "simplified meshes"},
+               settings.visibility);
     if (settings.visibility != Visibility::none) {
         changed |= choose_size("map size", std::array{32, 64, 128, 256}, settings.ism_size);
     }
     if (settings.visibility == Visibility::ism) {
         changed |= splat_settings(settings);
+    }
+    // Only maps drawn from triangles may be larger.
+    if (!settings.draws_triangle_maps() || settings.world_vpls > 0) {
+        settings.ism_size = std::min(settings.ism_size, k_most_ism_size);
     }
     // A bounce or a light that is no more is not shown either.
     settings.shown_bounce = std::min(settings.shown_bounce, settings.bounces);

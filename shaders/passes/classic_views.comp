@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The five views of each light's classic map, written where the draws of its faces bind them: the lights' places are
+// The five views of each light's classic map (PARABOLOID: the one of its paraboloid), written where the draws of its faces bind them: the lights' places are
 // known to the GPU alone.
 #include "lib/classic.glsl"
 #include "lib/vpl.glsl"
@@ -18,6 +18,18 @@ const float NEAR_PLANE = 1e-4;
 
 void main() {
     int index = int(gl_GlobalInvocationID.x);
+#ifdef PARABOLOID
+    if (index >= ism.atlas.z) {
+        return;
+    }
+    GpuVpl vpl = vpls[index];
+    vec3 eye = vpl.position.xyz;
+    // Into the frame of the map; passes/geometry.vert projects.
+    views[index].view.clip_from_render =
+        transpose(mat4(vec4(vpl.tangent.xyz, -dot(vpl.tangent.xyz, eye)), vec4(vpl.bitangent.xyz, -dot(vpl.bitangent.xyz, eye)),
+                       vec4(vpl.normal.xyz, -dot(vpl.normal.xyz, eye)), vec4(0.0, 0.0, 0.0, 1.0)));
+    views[index].view.eye = vec4(eye, float(ism.atlas.x));
+#else
     if (index >= ism.atlas.z * CLASSIC_FACES) {
         return;
     }
@@ -35,4 +47,5 @@ void main() {
         transpose(mat4(vec4(right, -dot(right, eye)), vec4(up, -dot(up, eye)), vec4(0.0, 0.0, 0.0, NEAR_PLANE),
                        vec4(forward, -dot(forward, eye))));
     views[index].view.eye = vec4(eye, 0.0);
+#endif
 }

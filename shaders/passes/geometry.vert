@@ -60,6 +60,9 @@ layout(location = 5) out vec3 out_light_space;
 #elif !defined(DEPTH_ONLY)
 layout(location = 7) out vec3 out_position;
 #endif
+#ifdef SET_BACK
+layout(location = 11) flat out float out_set_back;
+#endif
 #ifdef MOTION
 layout(location = 8) out vec4 out_clip;
 layout(location = 9) out vec4 out_previous_clip;
@@ -82,7 +85,19 @@ void main() {
     vec4 p = vec4(in_position, 1.0);
     vec3 position = vec3(dot(draw.render_from_model[0], p), dot(draw.render_from_model[1], p),
                          dot(draw.render_from_model[2], p));
+#ifdef PARABOLOID
+    // The depth is the fragment's to write. What is straight behind the light has no place in its map; what is behind it
+    // at all is clipped.
+    vec3 local = (view.clip_from_render * vec4(position, 1.0)).xyz;
+    float len = length(local);
+    gl_Position = vec4(local.xy / max(len + local.z, 1e-3 * len + 1e-20), 0.0, 1.0);
+    gl_ClipDistance[0] = local.z;
+#else
     gl_Position = view.clip_from_render * vec4(position, 1.0);
+#endif
+#ifdef SET_BACK
+    out_set_back = intBitsToFloat(draw.ids.z);
+#endif
     out_material = uint(draw.ids.x);
 #ifndef DEPTH_ONLY
     out_normal = vec3(dot(draw.normal_from_model[0].xyz, in_normal), dot(draw.normal_from_model[1].xyz, in_normal),

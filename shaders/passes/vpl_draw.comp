@@ -12,6 +12,10 @@
 //
 // STRIPS: rows are patches of surface in the order of a curve, and a cell is a run of whole rows: what lies there has
 // received its light from all lights of the bounce before.
+//
+// HALTON: instead, each light is the texel at a point of the two-dimensional Halton sequence over the map (Lv et al. 2009,
+// "A Fast Method for Real-time Computation of Approximated Global Illumination", section III.B), and stands for an equal
+// part of the map. A texel in which nothing was hit, or that the light does not reach, makes a dark one.
 #ifdef FROM_IRSM
 #include "lib/irsm.glsl"
 #ifndef SPLATTED
@@ -29,8 +33,12 @@ layout(location = 1) uniform ivec3 layout_;  // n, lights a subset, columns of a
 layout(location = 2) uniform ivec3 maps;     // lights, size of their maps, maps a row of the atlas
 layout(std430, binding = SSBO_VPLS_OUT) writeonly buffer VplOutBlock { GpuVpl drawn[]; };
 
+#ifdef HALTON
+layout(location = 3) uniform vec2 share;  // the part of the sequence's first coordinate that is this source's
+#else
 layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock { float running_sums[]; };
 layout(std430, binding = SSBO_TEXEL_SUMS) readonly buffer TexelBlock { float texel_sums[]; };
+#endif
 
 const int CHILDREN = 16;
 
@@ -46,6 +54,59 @@ float radical_inverse(uint base, uint i) {
     return value;
 }
 
+// Puts the light into the list, with its map's place and the area and near field of what it stands for.
+void store(int index, GpuVpl vpl, float area) {
+#ifdef FROM_IRSM
+    float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
+#else
+    float near_radius = NEAR_RADIUS * sqrt(area);
+#endif
+    ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
+    vpl.position.w = area;
+    vpl.tangent.w = 1.0 / max(near_radius * near_radius, 1e-30);
+    vpl.bitangent.w = uintBitsToFloat(uint(origin.x) | uint(origin.y) << 16);
+    drawn[index] = vpl;
+}
+
+#ifdef GLOSSY
+// Its lobe is the mean over all the surface it stands for.
+void widen(inout GpuVpl vpl, float spread) {
+    float gain = widening_gain(spread);
+    vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
+    vpl.arriving.rgb *= gain;
+}
+#endif
+
+#ifdef HALTON
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= maps.x) {
+        return;
+    }
+    vec2 h = vec2(radical_inverse(2u, uint(index)), radical_inverse(3u, uint(index)));
+    if (h.x < share.x || h.x >= share.y) {
+        return;  // of another source
+    }
+    int size = source_size();
+    int faces = rows.y / source_rows();
+    float across = (h.x - share.x) / (share.y - share.x) * float(faces);
+    int layer = min(int(across), faces - 1);
+    ivec2 texel = min(ivec2(vec2(across - float(layer), h.y) * float(size)), ivec2(size - 1));
+    PixelLight p;
+    if (!load_pixel_light(texel, layer, p)) {
+        drawn[index] = dark_vpl();
+        return;
+    }
+    // Texels that one of the source's points stands for.
+    float texels = float(size) * float(rows.y) / (float(maps.x) * (share.y - share.x));
+    float measure = texel_measure(texel, p) * texels;
+    GpuVpl vpl = make_vpl(p, measure);
+#if defined(GLOSSY) && MAP_KIND != MAP_ORTHOGRAPHIC
+    widen(vpl, WIDENING * measure);
+#endif
+    store(index, vpl, surface_area(p, measure));
+}
+#else
 uint hash(uint x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -244,9 +305,7 @@ void main() {
 #if !defined(FROM_IRSM) && MAP_KIND != MAP_ORTHOGRAPHIC
     spread += WIDENING * measure * all;  // arriving directions: measure is a solid angle
 #endif
-    float gain = widening_gain(spread);
-    vpl.glossy = vec4(vpl.glossy.rgb * gain, min(vpl.glossy.w + spread, 1.0));
-    vpl.arriving.rgb *= gain;
+    widen(vpl, spread);
 #endif
 #if defined(STRIPS)
     // A row is an equal part of the surfaces, and a cell so many rows.
@@ -256,14 +315,6 @@ void main() {
 #else
     area *= all;
 #endif
-#ifdef FROM_IRSM
-    float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
-#else
-    float near_radius = NEAR_RADIUS * sqrt(area);
-#endif
-    ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
-    vpl.position.w = area;
-    vpl.tangent.w = 1.0 / max(near_radius * near_radius, 1e-30);
-    vpl.bitangent.w = uintBitsToFloat(uint(origin.x) | uint(origin.y) << 16);
-    drawn[index] = vpl;
+    store(index, vpl, area);
 }
+#endif

@@ -18,6 +18,12 @@ layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 #ifdef NEAR_FIELD
 layout(binding = IMG_OUT1, r16f) uniform image2D reach_image;  // near radius of lights that are near
 #endif
+#ifdef ENVIRONMENT
+// Of lights of the world's image: what the receiver's lobe gathers of them, seen and in all (packed as bounced light's
+// irradiance). The reflection itself is looked up in the image (lib/environment_glossy.glsl).
+layout(binding = IMG_LOBES, rgba32ui) uniform uimage2D lobes_image;
+vec2 lobes = vec2(0.0);
+#endif
 shared GpuVpl chunk[CHUNK];
 
 #ifdef DISTANT
@@ -30,7 +36,15 @@ void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight s
 #else
     const float visibility = 1.0;
 #endif
+#ifdef ENVIRONMENT
     add_vpl(vpl, r, w, 1.0, geometry, geometry * visibility, WIDENING * vpl.position.w, sum);
+    float lobe = widened_lobe(-dot(r.view, w), geometry + r.n_dot_v, r.smith_view, smith_term(geometry, r.alpha2), r.alpha2,
+                              WIDENING * vpl.position.w);
+    lobe *= geometry * vpl.incident.w;
+    lobes += vec2(lobe * visibility, lobe);
+#else
+    add_vpl(vpl, r, w, 1.0, geometry, geometry * visibility, WIDENING * vpl.position.w, sum);
+#endif
 }
 #else
 void add(GpuVpl vpl, Surface s, Receiver r, float map_size, inout BouncedLight sum, inout float reach) {
@@ -98,6 +112,15 @@ void main() {
 #endif
 #endif
     imageStore(bounced_image, pixel, pack_bounced(sum, depth));
+#ifdef ENVIRONMENT
+    BouncedLight gathered;
+    gathered.irradiance = vec3(lobes * (depth > 0.0 ? float(n * n) : 0.0), 0.0);
+    gathered.glossy = vec3(0.0);
+#ifdef NEXT_LOBES
+    gathered.irradiance += unpack_bounced(imageLoad(lobes_image, pixel)).irradiance;
+#endif
+    imageStore(lobes_image, pixel, pack_bounced(gathered, depth));
+#endif
 #ifdef NEAR_FIELD
     imageStore(reach_image, pixel, vec4(reach));
 #endif

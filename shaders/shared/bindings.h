@@ -12,6 +12,7 @@
 #define UBO_MOTION 4
 #define UBO_DRAW 5
 #define UBO_SHADOW_VIEWS 6
+#define UBO_WORLD 7
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
@@ -57,6 +58,9 @@
 #define TEX_INDIRECT 11
 #define TEX_LOWRES 12
 #define TEX_GEOMETRIC_NORMAL 13
+#define TEX_ENVIRONMENT 14
+#define TEX_ENVIRONMENT_GLOSSY 15
+#define TEX_ENVIRONMENT_BRDF 12
 #define TEX_DEPTH_SAMPLES 8
 #define TEX_PREVIOUS_DEPTH 4
 
@@ -64,6 +68,7 @@
 #define IMG_OUT 0
 #define IMG_OUT1 1
 #define IMG_IN 2
+#define IMG_LOBES 1
 #define IMG_ISM 3
 #define IMG_RSM 4
 #define IMG_SOURCES 1
@@ -92,6 +97,9 @@
 // Samples of each map that the near field takes at a pixel: 8 or 16.
 #define NEAR_SAMPLES 8
 #define NEAR_SAMPLES_GLOSSY 16
+// Roughness of the prefiltered world image's first level; its last is 1, and between them it grows evenly.
+#define ENVIRONMENT_FIRST_ROUGHNESS 0.2
+#define ENVIRONMENT_LEVELS 5
 // Depth samples a pixel for antialiasing. OpenGL promises four.
 #define AA_SAMPLES 4
 // One group splats the points of one imperfect shadow map.

@@ -18,7 +18,7 @@ _POINTERS = [re.compile(pattern) for pattern in (
     r"/extensions/KHR_lights_punctual/lights/\d+/(color|intensity|spot/innerConeAngle|spot/outerConeAngle)",
     r"/cameras/\d+/perspective/yfov",
     r"/cameras/\d+/extensions/BOUNCE_scene/(focal_length_mm|ortho_scale|shift_x|shift_y)",
-    r"/extensions/BOUNCE_scene/world/(color|strength)",
+    r"/extensions/BOUNCE_scene/world/(color|strength|rotation)",
     r"/nodes/\d+/extensions/KHR_node_visibility/visible",
     r"/materials/\d+/pbrMetallicRoughness/(baseColorFactor|metallicFactor|roughnessFactor)",
     r"/materials/\d+/emissiveFactor",

@@ -6,7 +6,8 @@ import re
 import browser
 import pytest
 
-EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation"]
+EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "lv-table1", "lv-fig6",
+               "lv-fig7"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -67,6 +68,26 @@ def test_creation_of_maps(bounce, tmp_path):
     for size, maker, points, ms, median, ratio in imperfect:
         assert size == 32
         assert ratio == pytest.approx(classic[3] / ms)
+
+
+def test_maps_of_simplified_meshes(bounce, tmp_path):
+    """The paper's Table I beside ours; ratios are of the rates beside them."""
+    result = bounce("bench", "lv-table1", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    ours, paper = report["tables"]
+    names = [column["name"] for column in ours["columns"]]
+    rows = [dict(zip(names, row)) for row in ours["rows"]]
+    assert [row["map size"] for row in rows] == [32, 64]
+    for row in rows:
+        assert row["hybrid over 32"] == pytest.approx(row["hybrid"] / rows[0]["hybrid"])
+        assert row["deferred over 32"] == pytest.approx(row["deferred"] / rows[0]["deferred"])
+        assert row["simplified over whole"] == pytest.approx(row["deferred"] / row["deferred, whole meshes"])
+        assert row["maps"] > 0 and row["maps, whole meshes"] > 0
+    drawn, simplified = map(int, re.search(r"(\d+) triangles, simplified to (\d+)", ours["note"]).groups())
+    assert drawn == 49176 and 4000 < simplified <= 6000
+    assert len(paper["rows"]) == 12
+    assert any("GTX 280" in line for line in report["paper"])
 
 
 def test_interpolation_of_reflective_shadow_maps(bounce, tmp_path):

@@ -131,6 +131,13 @@ def test_bad_values(bounce, scene, option):
         (["--pull-push", "fill"], ["--pull-push", "--splat compute or points"]),
         (["--preset", "ism2008", "--technique", "rsm"], ["--preset ism2008", "--technique"]),
         (["--preset", "rsm2005", "--vpls", "64"], ["--vpls", "technique rsm"]),
+        (["--preset", "lv2009", "--points", "64"], ["--points", "--visibility simplified"]),
+        (["--preset", "ism2008", "--simplify", "0.5"], ["--simplify", "--visibility simplified"]),
+        (["--preset", "ism2008", "--map-projection", "faces"], ["--map-projection", "--visibility ism"]),
+        (["--preset", "lv2009", "--simplify", "0"], ["--simplify is 0"]),
+        (["--preset", "lv2009", "--simplify", "many"], ["--simplify is 'many'"]),
+        (["--preset", "lv2009", "--simplify", "1.5"], ["--simplify is 1.5"]),
+        (["--preset", "lv2009", "--ism-size", "2048"], ["--ism-size is 2048", "1024"]),
         (["--show", "ism", "--visibility", "none"], ["--show ism", "visibility none"]),
         (["--show", "ism-splats"], ["--show ism-splats", "disks"]),
         (["--show", "removed"], ["--show removed", "near field"]),
@@ -169,7 +176,7 @@ def test_several_bounces_among_black_surfaces_are_refused(render, tmp_path):
 
 
 def test_presets_and_what_differs_from_them(render, scene, tmp_path):
-    for preset in ("auto", "rsm2005", "ism2008"):
+    for preset in ("auto", "rsm2005", "ism2008", "lv2009"):
         result = render(scene, "-o", "a.png", "--frames", "12", "--preset", preset)
         assert result.returncode == 0, result.stderr
     result = render(scene, "-o", "a.png", "--frames", "12", "--preset", "ism2008", "--vpls", "32", "--stats", "s.json")

@@ -113,7 +113,8 @@ class VplEnergy : public ::testing::Test {
         set.interleave = layout.interleave;
         set.subset = layout.subset;
         set.cell_columns = layout.cell_columns;
-        const passes::DrawnVpls drawn = passes::add_vpls_from_rsms(graph, context, sources, set, glossy);
+        const passes::DrawnVpls drawn =
+            passes::add_vpls_from_rsms(graph, context, sources, set, glossy, VplSampling::inverse_transform);
         Fluxes out;
         graph.add_pass("read back", [&](PassBuilder& builder) {
             builder.read(drawn.set.vpls);

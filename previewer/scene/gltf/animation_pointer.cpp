@@ -69,6 +69,7 @@ constexpr std::array k_entries = std::to_array<Entry>({
 
     {"/extensions/BOUNCE_scene/world/color", Property::world_color, List::none, 3},
     {"/extensions/BOUNCE_scene/world/strength", Property::world_strength},
+    {"/extensions/BOUNCE_scene/world/rotation", Property::world_rotation, List::none, 4},
     {"/extensions/BOUNCE_scene/view/exposure", Property::view_exposure},
 });
 

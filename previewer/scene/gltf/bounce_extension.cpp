@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/environment.h"
 #include "scene/gltf/default_settings.h"
+#include "scene/gltf/environment_image.h"
+#include "scene/transforms.h"
 
 namespace bounce::scene::gltf {
 namespace {
@@ -144,7 +147,7 @@ std::vector<Light> read_blender_lights(Source& source) {
     return lights;
 }
 
-void read_scene_settings(Source& source, Scene& scene) {
+void read_scene_settings(Source& source, Buffers& buffers, Scene& scene) {
     const json* root = blender_root(source);
     if (root == nullptr) {
         set_default_settings(scene);
@@ -162,6 +165,17 @@ void read_scene_settings(Source& source, Scene& scene) {
     if (const json* world = member(*root, "world")) {
         scene.world.color = color_or(*world, "color", scene.world.color);
         scene.world.strength = number_or(*world, "strength", scene.world.strength);
+        if (const json* rotation = member(*world, "rotation")) {
+            const json& q = *rotation;
+            scene.world.world_from_environment = normalized_rotation(
+                glm::dquat(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()));
+        }
+        if (const json* image = member(*world, "image")) {
+            scene.environment = read_environment(source, buffers, *image);
+        }
+        if (scene.environment) {
+            scene.world.color = mean_radiance(*scene.environment);
+        }
     } else {
         scene.world.strength = 0.0F;
     }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "scene/gltf/buffers.h"
 #include "scene/gltf/source.h"
 #include "scene/scene.h"
 
@@ -14,7 +15,8 @@ namespace bounce::scene::gltf {
 [[nodiscard]] std::vector<Light> read_blender_lights(Source& source);
 
 // Frames, render and view settings, world, active camera, Blender's version and what was not exported;
-// or the defaults for a file without the extension. Needs everything else of the scene.
-void read_scene_settings(Source& source, Scene& scene);
+// or the defaults for a file without the extension. Needs everything else of the scene. A world's image that
+// cannot be read is warned of, and the world's colour stands in its place.
+void read_scene_settings(Source& source, Buffers& buffers, Scene& scene);
 
 }  // namespace bounce::scene::gltf

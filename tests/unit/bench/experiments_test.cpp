@@ -26,6 +26,18 @@ MeasuredFrame example() {
     return frame;
 }
 
+TEST(MapsTooLarge, NamesTheAtlasAndTheLimit) {
+    const auto refusal = [](int vpls, int map_size, int texture_size) {
+        return maps_too_large({.vpls = vpls, .ism_size = map_size, .interleave = 1}, texture_size);
+    };
+    EXPECT_EQ(refusal(256, 1024, 16384), "") << "exactly 1 GiB";
+    EXPECT_EQ(refusal(1024, 512, 16384), "");
+    EXPECT_THAT(refusal(1024, 1024, 16384),
+                HasSubstr("atlas of 32768x32768, 4 GiB; this OpenGL driver holds 16384"));
+    EXPECT_THAT(refusal(1024, 1024, 32768), HasSubstr("no more than 1"));
+    EXPECT_THAT(refusal(256, 512, 4096), HasSubstr("holds 4096"));
+}
+
 TEST(PassParts, AreToldByWhatOtherFramesRun) {
     const PassParts parts({"gbuffer", "shadow map: rsm", "composite"},
                           {"gbuffer", "shadow map: rsm", "rsm: Spot", "vpl importance", "vpls", "vpl gather",

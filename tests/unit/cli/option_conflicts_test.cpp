@@ -22,7 +22,8 @@ std::string conflict(const std::function<void(RenderOptions&)>& give, const Sett
 
 TEST(OptionConflicts, NothingGivenIsNoConflictWhateverTheSettings) {
     for (const Technique technique : {Technique::direct, Technique::rsm, Technique::ism}) {
-        for (const Visibility visibility : {Visibility::none, Visibility::ism, Visibility::shadow_maps}) {
+        for (const Visibility visibility :
+             {Visibility::none, Visibility::ism, Visibility::shadow_maps, Visibility::simplified}) {
             EXPECT_EQ(option_conflict({}, {.technique = technique, .visibility = visibility}), "");
         }
     }
@@ -71,6 +72,31 @@ TEST(OptionConflicts, MapsThatAreNotDrawn) {
                 AllOf(HasSubstr("--points"), HasSubstr("--visibility shadow-maps")));
     EXPECT_EQ(conflict(size, classic), "") << "classic maps have a size, too";
     EXPECT_EQ(conflict(points, {}), "");
+}
+
+TEST(OptionConflicts, SimplifiedMeshesMustBeDrawn) {
+    const Settings simplified{.visibility = Visibility::simplified};
+    const Settings hybrid{.shading = Shading::hybrid};
+    const Settings classic{.visibility = Visibility::shadow_maps};
+    const auto ratio = [](RenderOptions& o) { o.simplify = "0.5"; };
+    const auto error = [](RenderOptions& o) { o.simplify_error = 0.1; };
+    const auto projection = [](RenderOptions& o) { o.map_projection = "paraboloid"; };
+    for (const auto& [give, name] :
+         {std::pair<std::function<void(RenderOptions&)>, const char*>(ratio, "--simplify "),
+          {error, "--simplify-error "}}) {
+        EXPECT_THAT(conflict(give, {}), AllOf(HasSubstr(name), HasSubstr("--visibility simplified")));
+        EXPECT_THAT(conflict(give, classic), HasSubstr(name));
+        EXPECT_THAT(conflict(give, {.technique = Technique::rsm}), HasSubstr("technique rsm"));
+        EXPECT_EQ(conflict(give, simplified), "");
+        EXPECT_EQ(conflict(give, hybrid), "");
+    }
+    EXPECT_THAT(conflict(projection, {}), AllOf(HasSubstr("--map-projection"), HasSubstr("shadow-maps")));
+    EXPECT_EQ(conflict(projection, classic), "");
+    EXPECT_EQ(conflict(projection, simplified), "");
+    EXPECT_THAT(conflict([](RenderOptions& o) { o.points = "100"; }, simplified),
+                AllOf(HasSubstr("--points"), HasSubstr("--visibility simplified")));
+    EXPECT_THAT(conflict([](RenderOptions& o) { o.vpl_sampling = "uniform"; }, {.technique = Technique::rsm}),
+                HasSubstr("--vpl-sampling"));
 }
 
 TEST(OptionConflicts, PullPushNeedsHoles) {

@@ -158,7 +158,8 @@ TEST(Results, HaveTheFinalRender) {
     EXPECT_THAT(results_table(evaluation),
                 HasSubstr("the reference itself is off by relMSE 0.25, FLIP 0.5000, -12.50%"));
     evaluation.given_reference = "ref.####.exr";
-    EXPECT_THAT(results_table(evaluation), HasSubstr("the reference itself is off by")) << "also against a given one";
+    EXPECT_THAT(results_table(evaluation), HasSubstr("the reference itself is off by"))
+        << "also against a given one";
 }
 
 TEST(ResultsCsv, WhatIsNoNumberIsEmpty) {

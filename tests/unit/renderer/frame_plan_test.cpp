@@ -85,6 +85,37 @@ TEST_F(FramePlanTest, ALitSurfaceIsShadedWithOneBounce) {
     EXPECT_TRUE(p.approximations.empty());
 }
 
+TEST_F(FramePlanTest, NothingIsSimplifiedUnlessAskedFor) {
+    settings_ = {};
+    settings_.simplify = {.ratio = 0.1, .error = 0.1};
+    EXPECT_FALSE(plan().simplified);
+    EXPECT_FALSE(plan().hybrid);
+    EXPECT_EQ(reason(plan(), "simplified meshes"), "");
+    settings_.visibility = Visibility::shadow_maps;
+    EXPECT_FALSE(plan().simplified);
+    settings_.visibility = Visibility::simplified;
+    EXPECT_TRUE(plan().simplified);
+    EXPECT_FALSE(plan().hybrid);
+    settings_.visibility = Visibility::none;
+    EXPECT_FALSE(plan().simplified);
+    settings_.shading = Shading::hybrid;
+    EXPECT_TRUE(plan().simplified);
+    EXPECT_TRUE(plan().hybrid);
+}
+
+TEST_F(FramePlanTest, SimplifiedMeshesAreLeftOutWhereNothingBounces) {
+    settings_ = {};
+    settings_.visibility = Visibility::simplified;
+    settings_.shading = Shading::hybrid;
+    scene_.lights[0].power_w = 0.0F;
+    EXPECT_FALSE(plan().simplified);
+    EXPECT_FALSE(plan().hybrid);
+    EXPECT_THAT(reason(plan(), "simplified meshes"), HasSubstr("bounced light"));
+    scene_.lights[0].power_w = 10.0F;
+    settings_.show = Show::direct;
+    EXPECT_FALSE(plan().simplified);
+}
+
 TEST_F(FramePlanTest, TheReflectiveShadowMapAloneIsInterpolated) {
     settings_.bounces = 3;
     const FramePlan p = plan();

@@ -35,11 +35,56 @@ void expect_range(const std::string& name, int low, int high,
 }
 
 TEST(SettingsRefusal, EveryPresetCanBeDrawn) {
-    for (const Preset preset : {Preset::automatic, Preset::rsm2005, Preset::ism2008}) {
+    for (const Preset preset : {Preset::automatic, Preset::rsm2005, Preset::ism2008, Preset::lv2009}) {
         EXPECT_EQ(settings_refusal(preset_settings(preset)), "");
         EXPECT_EQ(limits_refusal(preset_settings(preset), {}), "");
         EXPECT_EQ(layer_refusal(preset_settings(preset)), "");
     }
+}
+
+TEST(SettingsRefusal, Lv2009IsThePaperSettings) {
+    const Settings s = preset_settings(Preset::lv2009);
+    EXPECT_EQ(s.technique, Technique::ism);
+    EXPECT_EQ(s.vpls, 256);
+    EXPECT_EQ(s.ism_size, 256);
+    EXPECT_EQ(s.bounces, 1);
+    EXPECT_EQ(s.interleave, 1);
+    EXPECT_EQ(s.visibility, Visibility::simplified);
+    EXPECT_EQ(s.vpl_sampling, VplSampling::uniform);
+    EXPECT_EQ(s.map_projection, MapProjection::paraboloid);
+    EXPECT_EQ(s.simplify.ratio, 0.0) << "automatic";
+    EXPECT_EQ(s.soft_shadow_size, 512);
+    EXPECT_EQ(s.used_rsm_size(), 512);
+    EXPECT_FALSE(s.near_field);
+    EXPECT_FALSE(s.glossy_bounces);
+}
+
+TEST(SettingsRefusal, MapsOfTrianglesMayBeLarger) {
+    const auto sized = [](Visibility visibility, int size, int world) {
+        return refusal([&](Settings& s) {
+            s.visibility = visibility;
+            s.ism_size = size;
+            s.world_vpls = world;
+        });
+    };
+    for (const Visibility triangles : {Visibility::shadow_maps, Visibility::simplified}) {
+        EXPECT_EQ(sized(triangles, 1024, 0), "");
+        EXPECT_THAT(sized(triangles, 2048, 0), HasSubstr("from 32 to 1024"));
+        EXPECT_THAT(sized(triangles, 512, 64), HasSubstr("--world-vpls 0"));
+        EXPECT_EQ(sized(triangles, 256, 64), "");
+    }
+    EXPECT_THAT(sized(Visibility::ism, 512, 0), HasSubstr("from 32 to 256"));
+}
+
+TEST(SettingsRefusal, SimplificationHasItsRanges) {
+    for (const double wrong : {-0.1, 1.01, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.simplify.ratio = wrong; }), HasSubstr("--simplify is"));
+    }
+    for (const double wrong : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.simplify.error = wrong; }),
+                    HasSubstr("--simplify-error is"));
+    }
+    EXPECT_EQ(refusal([](Settings& s) { s.simplify = {.ratio = 1.0, .error = 1.0}; }), "");
 }
 
 TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
