@@ -217,6 +217,31 @@ TEST_F(EmitterLight, AnimatedEmissionScalesLinearly) {
     }
 }
 
+TEST_F(EmitterLight, LightMovesWithItsSurface) {
+    // No points stand on these two surfaces, as neither hides the other from anything.
+    const scene::Scene scene = under_square(1.0);
+    Renderer renderer(scene);
+    const auto light_at = [&](double x, int panels) {
+        scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+        for (scene::DrawInstance& draw : pose.draws) {
+            if (draw.node == 1) {
+                draw.world_from_model = pose.world_from_node[1] =
+                    moved({x, 0.0, 0.0}) * draw.world_from_model;
+            }
+        }
+        Rendered out;
+        out.report = renderer.render(pose, floor_at(0.0, 1.0), lit(1024, panels));
+        out.image = renderer.read_color();
+        return middle(out);
+    };
+    for (const int panels : {0, 2}) {
+        for (const double x : {0.0, 0.7, 1.4}) {
+            const double expected = 2.0 * form_factor(x - 0.5, x + 0.5, -0.5, 0.5, 1.0);
+            EXPECT_NEAR(light_at(x, panels), expected, 0.01 * expected) << panels << ' ' << x;
+        }
+    }
+}
+
 TEST_F(EmitterLight, AnythingBetweenDimAndBrightStaysFinite) {
     const double one = middle(draw(under_square(1.0, glm::vec3(1.0F)), floor_at(0.2, 1.0), lit(256, 0)));
     for (const int panels : {0, 2}) {
