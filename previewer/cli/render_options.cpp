@@ -297,9 +297,10 @@ void RenderOptions::add_to(CLI::App& command) {
         std::to_string(Settings{}.emitter_vpls));
     group.number(
         "--emitter-panels", emitter_panels,
-        fmt::format("Sides of flat rectangles that emit evenly, those with the most light, which are drawn as "
-                    "area lights instead, 0 to {}",
-                    k_most_emitter_panels),
+        fmt::format(
+            "Sides of flat rectangles that emit evenly, those with the most light, which are drawn as "
+            "area lights instead, 0 to {}",
+            k_most_emitter_panels),
         std::to_string(Settings{}.emitter_panels));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",

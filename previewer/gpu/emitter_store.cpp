@@ -57,8 +57,8 @@ void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices
     for (const scene::EmitterSample& sample : samples_) {
         const scene::PointSample& point = sample.point;
         const scene::PointSurface& surface = points_.parts().surfaces[point.surface];
-        const scene::Primitive& primitive =
-            scene_.meshes[static_cast<size_t>(surface.mesh)].primitives[static_cast<size_t>(surface.primitive)];
+        const scene::Primitive& primitive = scene_.meshes[static_cast<size_t>(surface.mesh)]
+                                                .primitives[static_cast<size_t>(surface.primitive)];
         const glm::vec3 sent = radiance_[static_cast<size_t>(primitive.material)] * sample.texture;
         power_w_ += std::numbers::pi * sample.area_m2 * scene::emitted_luminance(sent);
         sources.push_back({points_.place(point.surface, point.triangle, vertices),

@@ -12,7 +12,8 @@
 
 namespace bounce::gpu {
 
-// Samples of the scene's emissive surfaces on the GPU, and the lights that passes/emitter_lights.comp makes of them.
+// Samples of the scene's emissive surfaces on the GPU, and the lights that passes/emitter_lights.comp makes
+// of them.
 class EmitterStore {
   public:
     // Both must outlive it; points: of the scene, for its surfaces.
@@ -39,8 +40,8 @@ class EmitterStore {
     scene::Emitters emitters_;
     std::vector<glm::vec3> peak_;  // one a material, what the samples are spread by
     std::vector<scene::EmitterSample> samples_;
-    std::vector<glm::vec3> radiance_;  // one a material, as it was uploaded
-    std::vector<bool> shown_;          // one a surface
+    std::vector<glm::vec3> radiance_;         // one a material, as it was uploaded
+    std::vector<bool> shown_;                 // one a surface
     std::vector<std::pair<int, int>> taken_;  // nodes and instances of the panels left out
     size_t count_ = 0;
     double power_w_ = 0.0;

@@ -3,7 +3,8 @@
 
 namespace bounce::passes {
 
-VplSet add_emitter_lights(FrameGraph& graph, const PassContext& context, const gpu::EmitterStore& store, VplSet layout) {
+VplSet add_emitter_lights(FrameGraph& graph, const PassContext& context, const gpu::EmitterStore& store,
+                          VplSet layout) {
     VplSet out = layout;
     graph.add_pass("emitter lights", [&](PassBuilder& builder) {
         const BufferHandle vpls =

@@ -6,9 +6,9 @@
 
 namespace bounce::passes {
 
-// Virtual point lights on the surfaces that emit, in proportion to what they send. `layout` says where their maps go and
-// has as many maps as the store has lights; returns it with the buffer filled in.
-[[nodiscard]] VplSet add_emitter_lights(FrameGraph& graph, const PassContext& context, const gpu::EmitterStore& store,
-                                        VplSet layout);
+// Virtual point lights on the surfaces that emit, in proportion to what they send. `layout` says where their
+// maps go and has as many maps as the store has lights; returns it with the buffer filled in.
+[[nodiscard]] VplSet add_emitter_lights(FrameGraph& graph, const PassContext& context,
+                                        const gpu::EmitterStore& store, VplSet layout);
 
 }  // namespace bounce::passes

@@ -183,8 +183,9 @@ void plan_emitters(const Settings& settings, bool whole, FramePlan& plan) {
     if (!plan.emitters) {
         plan.left_out.push_back({"emitter lights", !emits   ? "no visible surface emits"
                                                    : !whole ? "the layer shows other light alone"
-                                                   : !plan.receives ? "no surface reflects light"
-                                                            : "emissive surfaces were asked to light nothing"});
+                                                   : !plan.receives
+                                                       ? "no surface reflects light"
+                                                       : "emissive surfaces were asked to light nothing"});
         if (emits && whole && settings.emitter_vpls == 0) {
             plan.approximations.emplace_back("emissive surfaces are seen but light nothing, as asked for");
         }

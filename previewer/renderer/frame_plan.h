@@ -32,13 +32,13 @@ struct FramePlan {
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;
-    bool world_light = false;                 // the world is not black
-    bool world_occluded = false;              // and stands as virtual point lights
-    bool environment = false;                 // and drawn with its image
-    int world_bounces = 0;                    // of its light
-    bool receives = false;                    // some surface reflects light, by whatever lobe
-    bool emitters = false;                    // emissive surfaces light others
-    int emitter_bounces = 0;                  // of their light
+    bool world_light = false;     // the world is not black
+    bool world_occluded = false;  // and stands as virtual point lights
+    bool environment = false;     // and drawn with its image
+    int world_bounces = 0;        // of its light
+    bool receives = false;        // some surface reflects light, by whatever lobe
+    bool emitters = false;        // emissive surfaces light others
+    int emitter_bounces = 0;      // of their light
     bool emitters_occluded = false;
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light

@@ -38,8 +38,8 @@ struct PipelineInputs {
     gpu::EmitterStore* emitter_store = nullptr;
     Bounce emitters;                      // where plan.emitters
     std::vector<Bounce> emitter_bounces;  // plan.emitter_bounces of them
-    int triangles_inside = 0;           // large triangles in maps of lights within the scene
-    passes::PreviousFrame previous;     // where the plan shows motion
+    int triangles_inside = 0;             // large triangles in maps of lights within the scene
+    passes::PreviousFrame previous;       // where the plan shows motion
     TextureHandle target;
     // Filled where they are there, each for a wait.
     int* gathered_pixels = nullptr;

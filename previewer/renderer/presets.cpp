@@ -10,7 +10,7 @@ Settings preset_settings(Preset preset) {
             break;
         case Preset::rsm2005:
             out.technique = Technique::rsm;
-            out.world_vpls = 0;  // the paper has no light from all around
+            out.world_vpls = 0;                         // the paper has no light from all around
             out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces
             out.direct_shadows = DirectShadows::hard;
             break;

@@ -65,9 +65,8 @@ constexpr int k_irsm_size = 32;
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
     const bool emitters = plan.emitters && plan.emitters_occluded;
-    return plan.world_occluded ||
-           ((plan.occluded || emitters) &&
-            (settings.visibility == Visibility::ism || settings.technique != Technique::ism));
+    return plan.world_occluded || ((plan.occluded || emitters) && (settings.visibility == Visibility::ism ||
+                                                                   settings.technique != Technique::ism));
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
@@ -159,8 +158,8 @@ Renderer::Renderer(const scene::Scene& scene) : scene_(scene), gpu_scene_(scene)
 }
 Renderer::~Renderer() = default;
 
-// How far before its surface the light of an emissive panel stands, of the scene's diagonal: ten roundings of a
-// place in a float.
+// How far before its surface the light of an emissive panel stands, of the scene's diagonal: ten roundings of
+// a place in a float.
 constexpr double k_panel_offset = 1e-6;
 
 std::optional<scene::PanelPose> Renderer::light_panels(const scene::Pose& pose, const Settings& settings) {
@@ -183,13 +182,15 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
     if (!emitters_) {
         emitters_ = std::make_unique<gpu::EmitterStore>(scene_, *points_);
     }
-    emitters_->set_pose(pose, gpu_scene_.vertices(), static_cast<size_t>(emitter_layout(settings, 0).vpls), panels);
+    emitters_->set_pose(pose, gpu_scene_.vertices(), static_cast<size_t>(emitter_layout(settings, 0).vpls),
+                        panels);
     if (emitters_->lights() == 0) {
         plan.emitters = plan.emitters_occluded = false;
         plan.emitter_bounces = 0;
         plan.occluded = plan.occluded && (plan.vpls || plan.world_bounces > 0);
-        plan.left_out.push_back({"emitter lights", panels.empty() ? "the textures of what emits are black"
-                                                                 : "all that emits is drawn as area lights"});
+        plan.left_out.push_back({"emitter lights", panels.empty()
+                                                       ? "the textures of what emits are black"
+                                                       : "all that emits is drawn as area lights"});
     }
 }
 

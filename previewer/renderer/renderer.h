@@ -103,7 +103,7 @@ class Renderer {
 
     const scene::Scene& scene_;
     gpu::GpuScene gpu_scene_;
-    std::unique_ptr<gpu::PointStore> points_;  // made when a frame first needs it
+    std::unique_ptr<gpu::PointStore> points_;      // made when a frame first needs it
     std::unique_ptr<gpu::EmitterStore> emitters_;  // the same
     gl::ProgramCache programs_;
     TransientPool pool_;

@@ -101,9 +101,9 @@ struct Settings {
 
     // Virtual point lights and imperfect shadow maps.
     int bounces = 1;
-    int vpls = 256;         // of the first bounce
-    int bounce_vpls = 128;  // of each further one
-    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
+    int vpls = 256;          // of the first bounce
+    int bounce_vpls = 128;   // of each further one
+    int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
     int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
     int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most
     VplSampling vpl_sampling = VplSampling::inverse_transform;  // of the first bounce

@@ -21,8 +21,8 @@ constexpr int k_moments = 9;
 // Of a box's side: what reaches no farther in than this, such as a lamp's socket, is not inside.
 constexpr double k_inside = 0.1;
 
-// The side of a closed surface that looks outwards, 1 the front and -1 the back; 0 where it has a border: an edge that
-// is not run along once in each direction.
+// The side of a closed surface that looks outwards, 1 the front and -1 the back; 0 where it has a border: an
+// edge that is not run along once in each direction.
 int outside_of(const Primitive& primitive) {
     const std::vector<uint32_t> welded = welded_vertices(primitive);
     std::vector<glm::uvec3> triangles;
@@ -55,7 +55,8 @@ double emitted_luminance(const glm::vec3& radiance) {
 std::vector<bool> may_emit(const Scene& scene) {
     std::vector<bool> out;
     for (const Material& material : scene.materials) {
-        out.push_back(!material.unlit && emitted_luminance(material.emission) * material.emission_strength > 0.0);
+        out.push_back(!material.unlit &&
+                      emitted_luminance(material.emission) * material.emission_strength > 0.0);
     }
     for (const Animation& animation : scene.animations) {
         for (const AnimationChannel& channel : animation.channels) {
@@ -114,10 +115,11 @@ EmittingSidesFinder::EmittingSidesFinder(const Scene& scene) : scene_(scene) {
 EmittingSides EmittingSidesFinder::find(int node, int instance, int primitive) {
     const Primitive& surface = scene_.meshes[at(scene_.nodes[at(node)].mesh)].primitives[at(primitive)];
     const auto known = outside_.find(&surface);
-    const int outside = known != outside_.end() ? known->second
-                                                : outside_.emplace(&surface, outside_of(surface)).first->second;
-    const bool holes = surface.material != k_none &&
-                       scene_.materials[at(surface.material)].alpha_mode != AlphaMode::opaque;
+    const int outside = known != outside_.end()
+                            ? known->second
+                            : outside_.emplace(&surface, outside_of(surface)).first->second;
+    const bool holes =
+        surface.material != k_none && scene_.materials[at(surface.material)].alpha_mode != AlphaMode::opaque;
     if (outside == 0 || holes || is_around_something(node, instance, primitive)) {
         return {};
     }
@@ -155,8 +157,8 @@ std::vector<glm::vec3> emitted_radiance(const std::vector<Material>& materials) 
 
 std::vector<glm::vec3> peak_radiance(const Scene& scene, int animation) {
     std::vector<glm::vec3> peak = emitted_radiance(scene.materials);
-    const bool animated = std::any_of(
-        scene.animations.begin(), scene.animations.end(), [](const Animation& candidate) {
+    const bool animated =
+        std::any_of(scene.animations.begin(), scene.animations.end(), [](const Animation& candidate) {
             return std::any_of(candidate.channels.begin(), candidate.channels.end(),
                                [](const AnimationChannel& channel) {
                                    return channel.property == Property::material_emission ||
@@ -164,8 +166,8 @@ std::vector<glm::vec3> peak_radiance(const Scene& scene, int animation) {
                                });
         });
     for (int i = 0; animated && i < k_moments; ++i) {
-        const double frame = scene.frames.start +
-                             (scene.frames.end - scene.frames.start) * static_cast<double>(i) / (k_moments - 1);
+        const double frame = scene.frames.start + (scene.frames.end - scene.frames.start) *
+                                                      static_cast<double>(i) / (k_moments - 1);
         const std::vector<glm::vec3> now =
             emitted_radiance(evaluate_pose(scene, time_of_frame(scene.frames, frame), animation).materials);
         for (size_t m = 0; m < peak.size(); ++m) {

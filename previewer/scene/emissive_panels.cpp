@@ -14,7 +14,8 @@
 namespace bounce::scene {
 namespace {
 
-// Of a rectangle's area that its triangles may lack or exceed, and of a right angle's cosine: rounding of vertices.
+// Of a rectangle's area that its triangles may lack or exceed, and of a right angle's cosine: rounding of
+// vertices.
 constexpr double k_tolerance = 1e-3;
 
 size_t at(int index) {
@@ -147,7 +148,8 @@ bool panel_light(const EmissivePanel& panel, const glm::dmat4& world, const glm:
 
 EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
     const std::vector<bool> emits = may_emit(scene);
-    const Pose pose = evaluate_pose(scene, time_of_frame(scene.frames, scene.frames.start), default_animation(scene));
+    const Pose pose =
+        evaluate_pose(scene, time_of_frame(scene.frames, scene.frames.start), default_animation(scene));
     const std::vector<glm::vec3> radiance = peak_radiance(scene, default_animation(scene));
     struct Candidate {
         EmissivePanel panel;
@@ -184,7 +186,8 @@ EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights) {
                     panel.instance = static_cast<int>(i);
                     panel.sides = sides.find(n, panel.instance, panel.primitive);
                     const glm::dmat3 world(world_from_model(scene, pose, panel));
-                    const double area = 4.0 * glm::length(glm::cross(world * panel.half_x, world * panel.half_y));
+                    const double area =
+                        4.0 * glm::length(glm::cross(world * panel.half_x, world * panel.half_y));
                     candidates.push_back({panel, area * emitted_luminance(radiance[at(primitive.material)])});
                 }
             }
@@ -233,7 +236,8 @@ PanelPose with_panel_lights(const Scene& scene, const Pose& pose, std::span<cons
                 continue;
             }
             light.name = "emissive " + scene.nodes[at(panel.node)].name + (back ? ", back" : "");
-            out.pose.light_instances.push_back({panel.node, static_cast<int>(out.pose.lights.size()), world_from_light});
+            out.pose.light_instances.push_back(
+                {panel.node, static_cast<int>(out.pose.lights.size()), world_from_light});
             out.pose.lights.push_back(light);
             lit = true;
         }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flat rectangles that emit the same everywhere: lamp panels, light strips, plain screens. Each side of one is an area
-// light, which is lit by in closed form and has shadows of real triangles, where points on it would make spots near by.
+// Flat rectangles that emit the same everywhere: lamp panels, light strips, plain screens. Each side of one
+// is an area light, which is lit by in closed form and has shadows of real triangles, where points on it
+// would make spots near by.
 #pragma once
 
 #include <cstddef>
@@ -34,18 +35,19 @@ struct EmissivePanels {
     bool all = false;  // nothing else may emit
 };
 
-// The rectangles with the most light, as the file stands, that have no more than `most_lights` sides in all. Rectangles
-// that are textured, cut out, skinned or morphed are none, nor are those whose material never emits. The same whatever
-// the time, so that no light turns from one kind into the other.
+// The rectangles with the most light, as the file stands, that have no more than `most_lights` sides in all.
+// Rectangles that are textured, cut out, skinned or morphed are none, nor are those whose material never
+// emits. The same whatever the time, so that no light turns from one kind into the other.
 [[nodiscard]] EmissivePanels find_emissive_panels(const Scene& scene, size_t most_lights);
 
-// The pose with an area light for each side of the panels that are drawn and still rectangles, after its other lights;
-// and which panels these are. offset_m: how far before its surface a light stands, so that it does not hide it.
+// The pose with an area light for each side of the panels that are drawn and still rectangles, after its
+// other lights; and which panels these are. offset_m: how far before its surface a light stands, so that it
+// does not hide it.
 struct PanelPose {
     Pose pose;
     std::vector<EmissivePanel> lit;
 };
-[[nodiscard]] PanelPose with_panel_lights(const Scene& scene, const Pose& pose, std::span<const EmissivePanel> panels,
-                                          double offset_m);
+[[nodiscard]] PanelPose with_panel_lights(const Scene& scene, const Pose& pose,
+                                          std::span<const EmissivePanel> panels, double offset_m);
 
 }  // namespace bounce::scene

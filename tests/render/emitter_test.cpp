@@ -12,8 +12,8 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Form factor from a place to a rectangle that lies parallel over it at a height c, with corners at (x1, y1) and
-// (x2, y2) from the place (Howell's catalogue, B-4 by superposition).
+// Form factor from a place to a rectangle that lies parallel over it at a height c, with corners at (x1, y1)
+// and (x2, y2) from the place (Howell's catalogue, B-4 by superposition).
 double form_factor(double x1, double x2, double y1, double y2, double c) {
     const auto part = [&](double x, double y) {
         const double rx = std::hypot(x, c);
@@ -98,8 +98,8 @@ TEST_F(EmitterLight, PointsOnASquareAreItsFormFactorFromItsOwnSideAway) {
 }
 
 TEST_F(EmitterLight, PointsNearAPlaneStayBounded) {
-    // A centimetre away from points that stand 9 cm apart a piece is as bright as the square itself at most, and with
-    // those around it up to 2.2 times; and `removed` says how much is missing between them.
+    // A centimetre away from points that stand 9 cm apart a piece is as bright as the square itself at most,
+    // and with those around it up to 2.2 times; and `removed` says how much is missing between them.
     Settings settings = lit(256, 0);
     settings.technique = Technique::ism;
     settings.measure_removed = true;
@@ -137,8 +137,8 @@ TEST_F(EmitterLight, ABodySendsByItsOutsideAlone) {
 }
 
 TEST_F(EmitterLight, ARoomThatEmitsSeesItself) {
-    // A closed ball of radiance 1 and albedo 0 is 1 all over; with an albedo of a half every place reflects a half of
-    // it once more (and the half of that with a bounce).
+    // A closed ball of radiance 1 and albedo 0 is 1 all over; with an albedo of a half every place reflects a
+    // half of it once more (and the half of that with a bounce).
     for (const float albedo : {0.0F, 0.5F}) {
         scene::Scene scene;
         scene.from_blender = true;
@@ -185,7 +185,8 @@ TEST_F(EmitterLight, ATextureSaysWhereLightComesFrom) {
 TEST_F(EmitterLight, SomethingInTheWayHidesIt) {
     for (const int panels : {0, 2}) {
         scene::Scene scene = under_square(2.0);
-        add_mesh_node(scene, add_box(scene, glm::vec3(0.9F, 0.9F, 0.05F), add_diffuse(scene, glm::vec3(0.0F))),
+        add_mesh_node(scene,
+                      add_box(scene, glm::vec3(0.9F, 0.9F, 0.05F), add_diffuse(scene, glm::vec3(0.0F))),
                       moved({0.0, 0.0, 1.0}));
         const double open = middle(draw(under_square(2.0), floor_at(0.0, 0.9), lit(256, panels)));
         // The box covers all of the square from here.
@@ -209,8 +210,35 @@ TEST_F(EmitterLight, AnimatedEmissionScalesLinearly) {
         const scene::Scene scene = animated(under_square(1.0), 1);
         const double first = middle(draw(scene, floor_at(0.2, 1.0), lit(256, panels), 0.0));
         // The same points, so it is the same number times the strength but for half floats' digits.
-        EXPECT_NEAR(middle(draw(scene, floor_at(0.2, 1.0), lit(256, panels), 1.0)), 2.0 * first, 2e-3 * first);
-        EXPECT_NEAR(middle(draw(scene, floor_at(0.2, 1.0), lit(256, panels), 2.0)), 3.0 * first, 3e-3 * first);
+        EXPECT_NEAR(middle(draw(scene, floor_at(0.2, 1.0), lit(256, panels), 1.0)), 2.0 * first,
+                    2e-3 * first);
+        EXPECT_NEAR(middle(draw(scene, floor_at(0.2, 1.0), lit(256, panels), 2.0)), 3.0 * first,
+                    3e-3 * first);
+    }
+}
+
+TEST_F(EmitterLight, LightMovesWithItsSurface) {
+    // No points stand on these two surfaces, as neither hides the other from anything.
+    const scene::Scene scene = under_square(1.0);
+    Renderer renderer(scene);
+    const auto light_at = [&](double x, int panels) {
+        scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+        for (scene::DrawInstance& draw : pose.draws) {
+            if (draw.node == 1) {
+                draw.world_from_model = pose.world_from_node[1] =
+                    moved({x, 0.0, 0.0}) * draw.world_from_model;
+            }
+        }
+        Rendered out;
+        out.report = renderer.render(pose, floor_at(0.0, 1.0), lit(1024, panels));
+        out.image = renderer.read_color();
+        return middle(out);
+    };
+    for (const int panels : {0, 2}) {
+        for (const double x : {0.0, 0.7, 1.4}) {
+            const double expected = 2.0 * form_factor(x - 0.5, x + 0.5, -0.5, 0.5, 1.0);
+            EXPECT_NEAR(light_at(x, panels), expected, 0.01 * expected) << panels << ' ' << x;
+        }
     }
 }
 
@@ -245,7 +273,8 @@ TEST_F(EmitterLight, BouncesAsAnAreaLightOfThePowerDoes) {
     add_light(with_area, area, rotated(-90.0, {0.0, 1.0, 0.0}, {-0.999, 0.0, 1.5}));
     Settings indirect = bounced(size);
     const double expected = draw(with_area, floor_camera(), indirect).mean();
-    // From the light's middle against from all of it, and 256 points against reflective maps: several per cent.
+    // From the light's middle against from all of it, and 256 points against reflective maps: several per
+    // cent.
     EXPECT_NEAR(all.mean() - direct.mean(), expected, 0.06 * expected);
     EXPECT_GT(expected, 0.01);
 }

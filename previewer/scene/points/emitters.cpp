@@ -23,8 +23,8 @@ const Primitive& primitive_of(const Scene& scene, const PointSurface& surface) {
     return scene.meshes[at(surface.mesh)].primitives[at(surface.primitive)];
 }
 
-// A textured triangle is cut into this many pieces a side at most, of about this many texels each, and all of them
-// into so many in all.
+// A textured triangle is cut into this many pieces a side at most, of about this many texels each, and all of
+// them into so many in all.
 constexpr int k_most_cuts = 16;
 constexpr double k_texels_a_piece = 2.0;
 constexpr size_t k_most_pieces = 1U << 18U;
@@ -85,16 +85,18 @@ void Emitters::add_pieces(size_t part, uint32_t index, const EmittingSides& side
     const SurfacePart& of = parts_.parts[part];
     const Primitive& primitive = primitive_of(scene_, parts_.surfaces[of.surface]);
     const Material& material = scene_.materials[at(primitive.material)];
-    const int n = pieces_.size() < k_most_pieces ? cuts(textures_.texels(material.emission_texture, primitive,
-                                                                         of.table->triangles[index]))
-                                                 : 1;
+    const int n =
+        pieces_.size() < k_most_pieces
+            ? cuts(textures_.texels(material.emission_texture, primitive, of.table->triangles[index]))
+            : 1;
     const auto place = [&](int x, int y) { return glm::vec2(x, y) / static_cast<float>(n); };
     const float share = 1.0F / static_cast<float>(n * n);
     for (int y = 0; y < n; ++y) {
         // There and back again, so that neighbours in the list are neighbours on the triangle.
         for (int i = 0; i + y < n; ++i) {
             const int x = y % 2 == 0 ? i : n - 1 - y - i;
-            pieces_.push_back({part, index, {place(x, y), place(x + 1, y), place(x, y + 1)}, share, {}, sides});
+            pieces_.push_back(
+                {part, index, {place(x, y), place(x + 1, y), place(x, y + 1)}, share, {}, sides});
             if (x + y + 1 < n) {
                 pieces_.push_back(
                     {part, index, {place(x + 1, y), place(x + 1, y + 1), place(x, y + 1)}, share, {}, sides});
@@ -147,8 +149,7 @@ std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
             const Piece& piece = pieces_[i];
             const uint32_t surface = parts_.parts[piece.part].surface;
             const int material = primitive_of(scene_, parts_.surfaces[surface]).material;
-            const bool sends =
-                shown[surface] && (back ? piece.sides.back : piece.sides.front) && !taken[i];
+            const bool sends = shown[surface] && (back ? piece.sides.back : piece.sides.front) && !taken[i];
             sum += sends ? area_m2(piece) * emitted_luminance(radiance[at(material)] * piece.texture) : 0.0;
             cumulative.push_back(sum);
         }
@@ -165,9 +166,10 @@ std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
         const double weight = cumulative[entry] - (entry == 0 ? 0.0 : cumulative[entry - 1]);
         // Uniform over a triangle: Osada et al. 2002, "Shape Distributions".
         const double root = std::sqrt(u.y);
-        const glm::vec2 place = piece.corners[0] +
-                                (piece.corners[1] - piece.corners[0]) * static_cast<float>(root * (1.0 - u.z)) +
-                                (piece.corners[2] - piece.corners[0]) * static_cast<float>(root * u.z);
+        const glm::vec2 place =
+            piece.corners[0] +
+            (piece.corners[1] - piece.corners[0]) * static_cast<float>(root * (1.0 - u.z)) +
+            (piece.corners[2] - piece.corners[0]) * static_cast<float>(root * u.z);
         const double pieces_stood_for = sum / static_cast<double>(count) / weight;
         EmitterSample& sample = out.emplace_back();
         const SurfacePart& part = parts_.parts[piece.part];

@@ -25,7 +25,8 @@ class TextureReader {
                                                 const PointSample& point, float share, bool color);
 
     // Texels that the triangle covers of the image as it is kept; 0 where read() reads nothing.
-    [[nodiscard]] double texels(const TextureRef& ref, const Primitive& primitive, const glm::uvec3& triangle);
+    [[nodiscard]] double texels(const TextureRef& ref, const Primitive& primitive,
+                                const glm::uvec3& triangle);
 
     struct Level {
         int width = 0;

@@ -147,7 +147,8 @@ TEST(EmissivePanels, ABodyTurnedInsideOutShinesOutwards) {
     const PanelPose pose = lit(emitting(shape));
     ASSERT_EQ(pose.pose.light_instances.size(), 6U);
     for (const LightInstance& light : pose.pose.light_instances) {
-        EXPECT_GT(glm::dot(-glm::dvec3(light.world_from_light[2]), glm::dvec3(light.world_from_light[3])), 0.9);
+        EXPECT_GT(glm::dot(-glm::dvec3(light.world_from_light[2]), glm::dvec3(light.world_from_light[3])),
+                  0.9);
     }
 }
 
