@@ -13,6 +13,9 @@ namespace {
 // which then lies on its neighbours: the area grows. A surface that is smoothed grows by less.
 constexpr double k_most_growth = 0.005;
 
+// Boxes and the like: a share of their triangles would be a wedge, and spares nothing.
+constexpr size_t k_least_triangles = 64;
+
 // A wish that went wrong is tried again half as bold, so many times.
 constexpr int k_tries = 4;
 
@@ -138,7 +141,7 @@ double simplified_ratio(size_t triangles) {
 
 SimplifiedPrimitive simplify(const Primitive& primitive, double ratio, double error, bool lock_border) {
     const SimplifiedPrimitive unchanged{primitive.indices, 0.0};
-    if (!(ratio < 1.0) || primitive.indices.empty()) {
+    if (!(ratio < 1.0) || primitive.indices.size() / 3 < k_least_triangles) {
         return unchanged;
     }
     const std::vector<uint32_t> welded = weld(primitive);

@@ -14,8 +14,8 @@
 namespace bounce::scene {
 
 struct Simplification {
-    double ratio = 0.0;   // of the triangles to keep, above 0 to 1; 0: so many that simplified_ratio() says
-    double error = 0.02;  // largest distance that the surface may move, as a part of the primitive's extent
+    double ratio = 0.0;    // of the triangles to keep, above 0 to 1; 0: so many that simplified_ratio() says
+    double error = 0.005;  // largest distance that the surface may move, as a part of the primitive's extent
     friend bool operator==(const Simplification&, const Simplification&) = default;
 };
 
@@ -35,7 +35,8 @@ inline constexpr size_t k_simplified_triangles = 6000;
 [[nodiscard]] double simplified_ratio(size_t drawn_triangles);
 
 // lock_border: open edges stay where they are. Never more triangles than before. A ratio of 1 changes
-// nothing, and the primitive is left as it is where what is left of it would not be its surface any more.
+// nothing, and the primitive is left as it is where it has few triangles already, such as a box, and where
+// what is left of it would not be its surface any more.
 [[nodiscard]] SimplifiedPrimitive simplify(const Primitive& primitive, double ratio, double error,
                                            bool lock_border);
 

@@ -180,6 +180,13 @@ TEST(Simplify, ATiltedPlaneDoesNotGrow) {
     }
 }
 
+TEST(Simplify, WhatHasFewTrianglesStaysAsItIs) {
+    // 36 triangles: a quarter of them would be no ball.
+    const Primitive coarse = ball(3);
+    EXPECT_EQ(simplify(coarse, 0.25, 1.0, false).indices, coarse.indices);
+    EXPECT_LT(simplify(ball(5), 0.25, 1.0, false).indices.size(), ball(5).indices.size());
+}
+
 TEST(Simplify, FacetsAreOneSurfaceAndStayFacets) {
     // A box cut finely, with no vertex shared between triangles: as points of one surface it needs twelve.
     Primitive p;
