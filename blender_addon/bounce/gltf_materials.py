@@ -34,7 +34,7 @@ def complete(material, blender_material, export):
         if name in values:
             setattr(pbr, attribute, values[name])
     _set_emission(material, export.samples.values["material", key])
-    _set_alpha(material, values)
+    _set_alpha(material, model, export.samples.values["material", key])
     material.extensions["BOUNCE_scene"] = {"diffuse": model.diffuse, "specular": values["specular"]}
 
 
@@ -65,13 +65,15 @@ def _set_emission(material, tracks):
         material.extensions[_STRENGTH] = Extension(_STRENGTH, {"emissiveStrength": scale}, required=False)
 
 
-def _set_alpha(material, values):
+def _set_alpha(material, model, tracks):
     """Cycles lets light through wherever alpha is below 1; Eevee's blend mode, which the exporter reads, says nothing."""
-    alpha = values["baseColorFactor"][3] if "baseColorFactor" in values else None
-    if alpha == 1.0:
-        material.alpha_mode = material.alpha_cutoff = None
-    elif alpha is not None and alpha < 1.0:
-        material.alpha_mode, material.alpha_cutoff = "BLEND", None
+    least = 1.0 if "baseColorFactor" not in tracks else float(np.asarray(tracks["baseColorFactor"])[:, 3].min())
+    material.alpha_mode = material.alpha_cutoff = None
+    if model.alpha_cutoff is not None and least == 1.0:
+        # glTF keeps what equals the cutoff, a Math node does not.
+        material.alpha_mode, material.alpha_cutoff = "MASK", float(np.nextafter(np.float32(model.alpha_cutoff), 2))
+    elif model.alpha_image or least < 1.0:
+        material.alpha_mode = "BLEND"
 
 
 def finish_primitives(mesh, blender_materials, export):

@@ -82,6 +82,7 @@ ordered_json settings_json(const Settings& s) {
         {"antialias", s.antialias},
         {"samples", s.samples},
         {"world_vpls", s.world_vpls}};
+    out["transparent_layers"] = s.transparent_layers;
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "scene/transparency.h"
+
 namespace bounce::gpu {
 namespace {
 
@@ -22,10 +24,6 @@ GpuMaterial pack(const scene::Material& material) {
     GpuMaterial out{};
     out.base_color = material.base_color;
     out.emission = glm::vec4(material.emission * material.emission_strength, material.alpha_cutoff);
-    // A blended surface is drawn as a cut-out at one half; the loader's caller is told (renderer/frame_plan).
-    if (material.alpha_mode == scene::AlphaMode::blend) {
-        out.emission.a = 0.5F;
-    }
     out.surface = {material.metallic, material.roughness, material.specular, material.normal_scale};
     out.flags = {material.diffuse == scene::DiffuseModel::disney ? DIFFUSE_DISNEY : DIFFUSE_LAMBERT,
                  material.unlit ? 1 : 0, 0, 0};
@@ -50,7 +48,10 @@ DrawFeatures features_of(const scene::Scene& scene, const scene::Material& mater
     features.normal_texture = textured(material.normal_texture) && !primitive.tangents.empty();
     features.emission = material.emission * material.emission_strength != glm::vec3(0.0F) || material.unlit;
     features.emission_texture = features.emission && textured(material.emission_texture);
-    features.alpha_test = material.alpha_mode != scene::AlphaMode::opaque;
+    const scene::Coverage coverage = scene::coverage(scene, material, primitive);
+    features.blend = coverage.blended;
+    features.solid = coverage.solid;
+    features.alpha_test = material.alpha_mode == scene::AlphaMode::mask || coverage.blended;
     features.vertex_color = !primitive.colors.empty();
     return features;
 }
@@ -76,6 +77,11 @@ GpuDraw pack_draw(const glm::dmat4& m, int material) {
     }
     draw.ids = {material, sign < 0.0 ? 1 : 0, 0, 0};
     return draw;
+}
+
+// The same in every frame, whatever else is drawn: what noise hangs on must not jump.
+int draw_number(const scene::DrawInstance& instance, int primitive, int copy) {
+    return ((instance.node * 31 + primitive) * 31 + copy) & 0x7fffff;
 }
 
 bool same_material(const scene::Material& a, const scene::Material& b) {
@@ -132,12 +138,14 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         DrawSource source;
     };
     std::vector<Item> items;
-    has_emission_ = has_disney_ = has_specular_ = false;
+    std::vector<int> copies(scene_.nodes.size(), 0);
+    has_emission_ = has_disney_ = has_specular_ = has_blended_ = false;
     triangles_ = 0;
     for (size_t i = 0; i < pose.draws.size(); ++i) {
         const scene::DrawInstance& instance = pose.draws[i];
         const scene::Mesh& mesh = scene_.meshes[at(instance.mesh)];
         const bool deformed = vertices_.node_deforms(instance.node);
+        ++copies[at(instance.node)];
         for (size_t p = 0; p < mesh.primitives.size(); ++p) {
             const scene::Primitive& primitive = mesh.primitives[p];
             if (primitive.indices.empty()) {
@@ -146,6 +154,9 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             const bool has_material = primitive.material != scene::k_none;
             const scene::Material& material =
                 has_material ? pose.materials[at(primitive.material)] : default_material;
+            if (!scene::coverage(scene_, material, primitive).visible) {
+                continue;
+            }
             const int material_index =
                 has_material ? primitive.material : static_cast<int>(pose.materials.size());
             const glm::dmat4 transform = render_from_vertices(instance, static_cast<int>(p));
@@ -161,11 +172,13 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             item.batch.index_count = range.index_count;
             item.batch.base_vertex = range.base_vertex;
             item.draw = pack_draw(transform, material_index);
+            item.draw.ids.z = draw_number(instance, static_cast<int>(p), copies[at(instance.node)]);
             scene::Bounds world;
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
             item.box = gpu::draw_box(world, space_);
             item.source = {static_cast<int>(i), static_cast<int>(p)};
             items.push_back(item);
+            has_blended_ |= item.batch.features.blend;
             has_emission_ |= item.batch.features.emission;
             has_disney_ |= material.diffuse == scene::DiffuseModel::disney;
             has_specular_ |= material.specular > 0.0F || material.metallic > 0.0F;

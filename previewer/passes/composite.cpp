@@ -22,6 +22,10 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             defines["BOUNCED"] = "1";
         }
         if (inputs.world_light) defines["WORLD"] = "1";
+        if (inputs.layer) {
+            builder.read(inputs.gbuffer.geometric_normal);
+            defines["LAYER"] = "1";
+        }
         const bool emission = inputs.emission && inputs.gbuffer.emission.valid();
         if (emission) {
             builder.read(inputs.gbuffer.emission);
@@ -38,6 +42,9 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             if (inputs.direct.valid()) resources.texture(inputs.direct).bind(TEX_DIRECT);
             if (inputs.irradiance.valid()) resources.texture(inputs.irradiance).bind(TEX_INDIRECT);
             if (inputs.bounced.valid()) resources.texture(inputs.bounced).bind_image(IMG_IN, GL_READ_ONLY);
+            if (inputs.layer) {
+                resources.texture(inputs.gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
+            }
             if (emission) resources.texture(inputs.gbuffer.emission).bind(TEX_GBUFFER2);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

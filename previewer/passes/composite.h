@@ -12,9 +12,10 @@ struct CompositeInputs {
     TextureHandle bounced;     // shaders/lib/bounced.glsl; invalid: none
     bool world_light = false;
     bool emission = false;
+    bool layer = false;  // the G-buffer is one of blended surfaces (passes/peel.h)
 };
 
-// Scene-linear radiance times film exposure into `target`, an RGBA32F texture; where that is invalid, into a
+// Scene-linear radiance times film exposure (of a layer times alpha, with alpha beside it) into `target`, an RGBA32F texture; where that is invalid, into a
 // new one.
 TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
                             TextureHandle target);

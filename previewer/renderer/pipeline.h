@@ -41,6 +41,7 @@ struct PipelineInputs {
     passes::RemovedLight* removed = nullptr;
     float* reflected_flux =
         nullptr;                    // of all reflective shadow maps, in no particular unit; 0: nothing is lit
+    int* unpeeled_pixels = nullptr;  // that show more blended surfaces than there are layers
     bool* anything_seen = nullptr;  // whether the camera sees a surface
 };
 

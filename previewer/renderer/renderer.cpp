@@ -127,14 +127,20 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
                         camera.render_from_clip);
 }
 
-template <typename MakeView>
-passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, MakeView&& make_view) {
+passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) {
     passes::SoftMaps out;
     out.map_kind = setup.map_kind;
     out.size = setup.size;
     out.layers = setup.layers;
     for (const SoftFace& face : setup.faces) {
-        out.faces.push_back({face.layer, make_view(face.view.clip_from_render, face.view.mirrored)});
+        // ViewUniforms::eye.w
+        const auto places = static_cast<int>(setup.views.size());
+        const int numbers = face.layer * places / setup.layers + 4096 * places;
+        const glm::mat4& clip = face.view.clip_from_render;
+        out.faces.push_back(
+            {face.layer,
+             {uniforms.add(gpu::ViewUniforms{clip, glm::vec4(0.0F, 0.0F, 0.0F, static_cast<float>(numbers))}),
+              clip, face.view.mirrored}});
     }
     for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
         gpu::ShadowViews chunk{};
@@ -309,7 +315,10 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     const bool mirrored = glm::determinant(glm::dmat3(view.world_from_camera)) < 0.0;
     const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), mirrored);
 
-    const bool any_soft = std::find(plan.soft.begin(), plan.soft.end(), true) != plan.soft.end();
+    const auto any_of = [](const std::vector<bool>& flags) {
+        return std::find(flags.begin(), flags.end(), true) != flags.end();
+    };
+    const bool any_soft = any_of(plan.soft) || any_of(plan.veiled);
     const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;
@@ -330,12 +339,13 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
-        if (plan.soft[i]) {
+        if (plan.soft[i] || plan.veiled[i]) {
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
                                    gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
                                    settings.shadow_samples, settings.soft_shadow_size),
-                uniforms_, make_view);
+                uniforms_);
+            pass.soft.blended_only = plan.veiled[i];
         }
         lights.push_back(pass);
         fluxes.push_back(setup.flux_w);
@@ -366,6 +376,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     report.notes = plan.notes;
     float reflected_flux = -1.0F;
     bool anything_seen = true;
+    int unpeeled_pixels = 0;
     if (settings.measure_removed && plan.vpls) {
         report.removed.emplace();
     }
@@ -386,7 +397,8 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                                 .uniforms = uniforms_,
                                 .frame = frame,
                                 .width = settings.width,
-                                .height = settings.height},
+                                .height = settings.height,
+                                .blends = plan.blends},
                     .camera = camera_view,
                     .lights = lights,
                     .gather_frames = gather_frames,
@@ -402,11 +414,21 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
                     .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
                     .removed = report.removed ? &*report.removed : nullptr,
                     .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
+                    .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
                     .anything_seen = settings.find_unlit ? &anything_seen : nullptr});
     graph.execute(timer);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    for (const std::string& pass : graph.skipped()) {
+        report.left_out.push_back({pass, "no blended surface is in its layer"});
+    }
+    if (unpeeled_pixels > 0) {
+        report.approximations.push_back(
+            fmt::format("{} pixels show more than {} blended surfaces; those behind are left out "
+                        "(--transparent-layers)",
+                        unpeeled_pixels, plan.blend_layers));
     }
     if (reflected_flux == 0.0F) {
         const std::string reason = "no light reaches a surface that reflects it";

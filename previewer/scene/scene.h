@@ -84,6 +84,7 @@ struct Image {
     int height = 0;
     std::vector<uint8_t> rgba8;
     std::vector<uint16_t> rgba16;
+    bool opaque = false;  // known to have no alpha below 1
 };
 
 enum class Wrap { repeat, clamp_to_edge, mirrored_repeat };

@@ -5,6 +5,9 @@
 #define LIB_MATERIAL
 
 #include "lib/brdf.glsl"
+#ifdef ALPHA_TEST
+#include "lib/alpha_cut.glsl"
+#endif
 #include "shared/bindings.h"
 #include "shared/types.h"
 
@@ -56,11 +59,12 @@ vec4 material_base_color(GpuMaterial m) {
 }
 
 // Fills all but the position. Discards what an alpha test cuts away.
-Surface material_surface(out vec3 emission) {
+Surface material_surface(out vec3 emission, out float alpha) {
     GpuMaterial m = materials[in_material];
     vec4 base_color = material_base_color(m);
+    alpha = base_color.a;
 #ifdef ALPHA_TEST
-    if (base_color.a < m.emission.a) {
+    if (is_cut(m, base_color.a)) {
         discard;
     }
 #endif
@@ -99,6 +103,11 @@ Surface material_surface(out vec3 emission) {
         s.specular = 0.0;
     }
     return s;
+}
+
+Surface material_surface(out vec3 emission) {
+    float alpha;
+    return material_surface(emission, alpha);
 }
 
 #endif

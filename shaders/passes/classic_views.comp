@@ -34,5 +34,5 @@ void main() {
     views[index].view.clip_from_render =
         transpose(mat4(vec4(right, -dot(right, eye)), vec4(up, -dot(up, eye)), vec4(0.0, 0.0, 0.0, NEAR_PLANE),
                        vec4(forward, -dot(forward, eye))));
-    views[index].view.eye = vec4(eye, 0.0);
+    views[index].view.eye = vec4(eye, float(index & 4095));
 }

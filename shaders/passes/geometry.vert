@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every raster pass over the scene: G-buffer, shadow map, RSM, motion.
-#include "shared/bindings.h"
-#include "shared/types.h"
+#include "lib/view.glsl"
 
 layout(location = ATTRIB_POSITION) in vec3 in_position;
 
-layout(std140, binding = UBO_VIEW) uniform ViewBlock {
-    ViewUniforms view;
-};
 #if !defined(SINGLE_DRAW) || defined(MOTION)
 layout(location = ATTRIB_DRAW) in uint in_draw;
 #endif
@@ -54,6 +50,9 @@ layout(location = ATTRIB_COLOR) in vec4 in_color;
 layout(location = 4) out vec4 out_color;
 #endif
 layout(location = 0) flat out uint out_material;
+#if defined(BLEND_RULE) && BLEND_RULE == BLEND_HASHED
+layout(location = 8) flat out uint out_surface;
+#endif
 #ifdef LIGHT_VIEW
 #include "lib/light.glsl"
 layout(location = 5) out vec3 out_light_space;
@@ -84,6 +83,9 @@ void main() {
                          dot(draw.render_from_model[2], p));
     gl_Position = view.clip_from_render * vec4(position, 1.0);
     out_material = uint(draw.ids.x);
+#if defined(BLEND_RULE) && BLEND_RULE == BLEND_HASHED
+    out_surface = uint(draw.ids.z);
+#endif
 #ifndef DEPTH_ONLY
     out_normal = vec3(dot(draw.normal_from_model[0].xyz, in_normal), dot(draw.normal_from_model[1].xyz, in_normal),
                       dot(draw.normal_from_model[2].xyz, in_normal));

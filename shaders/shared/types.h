@@ -23,6 +23,15 @@
 // which every driver turns into scalar loads.
 #define SHADOW_VIEW_CHUNK 8
 
+// Blended materials (scene/transparency.h): below the first alpha there is nothing, from the second on it is opaque.
+#define ALPHA_NOTHING (1.0 / 512.0)
+#define ALPHA_SOLID (511.0 / 512.0)
+// What a pass draws of a blended material, BLEND_RULE.
+#define BLEND_HALF 0    // a cut-out at one half
+#define BLEND_SOLID 1   // where it is opaque
+#define BLEND_HASHED 2  // a part alpha of the texels (lib/alpha_threshold.glsl)
+#define BLEND_PEEL 3    // where it is neither nothing nor opaque, behind what was peeled off and before what is opaque
+
 #define DIFFUSE_LAMBERT 0
 #define DIFFUSE_DISNEY 1
 
@@ -40,7 +49,8 @@ struct FrameUniforms {
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
-    vec4 eye;               // xyz render space, where maps of planes tell distances from; -
+    vec4 eye;               // xyz render space, where maps of planes tell distances from;
+                            // w: of several views of one light its place + 4096 * places, of others any number below
 };
 
 // One light; each is a pass of its own, with its map and profile compiled in.
@@ -84,7 +94,7 @@ struct GpuMaterial {
 struct GpuDraw {
     vec4 render_from_model[3];  // rows
     vec4 normal_from_model[3];  // rows of the cofactor matrix (xyz)
-    ivec4 ids;                  // material, 1 where the transform mirrors, -, -
+    ivec4 ids;                  // material, 1 where the transform mirrors, a number that stays the draw's own, -
 };
 
 // The camera of the frame before, for the layer that shows motion.
