@@ -7,7 +7,7 @@ import numpy as np
 from io_scene_gltf2.io.com import gltf2_io
 from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
-from . import materials
+from . import materials, textures
 from .animation import Channel
 from .pointers import Pointer
 from .tracks import is_constant
@@ -74,6 +74,13 @@ def _set_alpha(material, model, tracks):
         material.alpha_mode, material.alpha_cutoff = "MASK", float(np.nextafter(np.float32(model.alpha_cutoff), 2))
     elif model.alpha_image or least < 1.0:
         material.alpha_mode = "BLEND"
+
+
+def set_encoding(texture_info, shader_sockets):
+    """Says where an image's colour space is not what glTF takes for granted at this place."""
+    encoding = textures.encoding(shader_sockets[0])
+    if encoding is not None:
+        texture_info.extensions = {**(texture_info.extensions or {}), "BOUNCE_scene": {"encoding": encoding}}
 
 
 def finish_primitives(mesh, blender_materials, export):

@@ -7,6 +7,10 @@ from . import sockets
 _TRANSPARENT = {"SEPARATE_COLOR", "SEPRGB", "RGB", "VALUE"}
 
 
+# sRGB and what leaves an image's numbers as they are.
+_SPACES = {"sRGB", "Non-Color", "Raw", "Linear"}
+
+
 class Chain:
     """What feeds one input: `problem` in words where glTF cannot say it, UV maps used ('' is the active one), and
     the colour attribute ('' is the active one) or None."""
@@ -62,6 +66,28 @@ def constant_factor(socket, size):
         values = list(constant) if hasattr(constant, "__len__") else [constant] * size
         factor = [a * b for a, b in zip(factor, values)]
     return factor
+
+
+def encoding(socket):
+    """'srgb' or 'linear' where the colour space of the image before a shader's input is not glTF's there, else None."""
+    node = _image_before(socket)
+    # The exporter writes images of floats as their colour space wants.
+    if node is None or node.image.is_float:
+        return None
+    srgb = node.image.colorspace_settings.name == "sRGB"
+    # Colours are sRGB in glTF, values and normals (a Normal Map's "Color" leads to "Normal") are not.
+    color = socket.type == "RGBA"
+    return None if srgb == color else ("srgb" if srgb else "linear")
+
+
+def _image_before(socket):
+    node, _ = sockets.source(socket)
+    if node is None:
+        return None
+    if node.type == "TEX_IMAGE":
+        return node if node.image is not None else None
+    before = (_image_before(child) for child in node.inputs)
+    return next((image for image in before if image is not None), None)
 
 
 def _leads_to_image(node):
@@ -145,6 +171,9 @@ def _visit_image(node, chain):
         chain.problem = f"{name} with {node.projection.lower()} projection"
     else:
         chain.has_image = True
+        space = image.colorspace_settings.name
+        if not image.is_float and space not in _SPACES:
+            chain.notes.append(f"{name} in the colour space {space}, exported as non-colour data")
         if node.extension == "CLIP":
             chain.notes.append(f"{name} with extension Clip, exported as Extend")
         if node.interpolation in {"Cubic", "Smart"}:

@@ -255,7 +255,8 @@ void RenderOptions::add_to(CLI::App& command) {
         "it, with a shadow map each",
         name_of(Settings{}.direct_shadows));
     group.number("--transparent-layers", transparent_layers,
-                 fmt::format("Blended surfaces that a pixel shows at most, from the camera on, 0 to {}; 0: cut out at one half",
+                 fmt::format("Blended surfaces that a pixel shows at most, from the camera on, 0 to {}; 0: "
+                             "cut out at one half",
                              k_most_transparent_layers),
                  std::to_string(Settings{}.transparent_layers));
     group.number("--shadow-samples", shadow_samples,

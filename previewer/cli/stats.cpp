@@ -74,14 +74,9 @@ double short_digits(float value) {
 
 ordered_json settings_json(const Settings& s) {
     ordered_json out = {
-        {"width", s.width},
-        {"height", s.height},
-        {"technique", name_of(s.technique)},
-        {"show", name_of(s.show)},
-        {"shadow_size", s.shadow_size},
-        {"antialias", s.antialias},
-        {"samples", s.samples},
-        {"world_vpls", s.world_vpls}};
+        {"width", s.width},        {"height", s.height},           {"technique", name_of(s.technique)},
+        {"show", name_of(s.show)}, {"shadow_size", s.shadow_size}, {"antialias", s.antialias},
+        {"samples", s.samples},    {"world_vpls", s.world_vpls}};
     out["transparent_layers"] = s.transparent_layers;
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {

@@ -83,8 +83,8 @@ class FrameGraph {
         passes_.back().execute = setup(builder);
     }
 
-    // Passes that are added until the next call run only where the condition holds when their turn comes; null: they
-    // always run. What a pass that does not run would have written is undefined.
+    // Passes that are added until the next call run only where the condition holds when their turn comes;
+    // null: they always run. What a pass that does not run would have written is undefined.
     void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
 
     // Runs the live passes in the order they were added; GL errors are thrown with the pass's name.

@@ -20,13 +20,13 @@ bool usable(const scene::Scene& scene, const scene::TextureRef& ref) {
     return ref.present() && scene.textures[at(ref.texture)].image != scene::k_none;
 }
 
-GpuMaterial pack(const scene::Material& material) {
+GpuMaterial pack(const scene::Material& material, bool from_blender) {
     GpuMaterial out{};
     out.base_color = material.base_color;
     out.emission = glm::vec4(material.emission * material.emission_strength, material.alpha_cutoff);
     out.surface = {material.metallic, material.roughness, material.specular, material.normal_scale};
     out.flags = {material.diffuse == scene::DiffuseModel::disney ? DIFFUSE_DISNEY : DIFFUSE_LAMBERT,
-                 material.unlit ? 1 : 0, 0, 0};
+                 material.unlit ? 1 : 0, from_blender ? 1 : 0, 0};
     const scene::TextureRef* refs[4] = {&material.base_color_texture, &material.metallic_roughness_texture,
                                         &material.normal_texture, &material.emission_texture};
     for (int i = 0; i < 4; ++i) {
@@ -37,8 +37,8 @@ GpuMaterial pack(const scene::Material& material) {
     return out;
 }
 
-DrawFeatures features_of(const scene::Scene& scene, const scene::Material& material,
-                         const scene::Primitive& primitive) {
+DrawFeatures features_of(const scene::Scene& scene, const MaterialTextures& textures,
+                         const scene::Material& material, const scene::Primitive& primitive) {
     DrawFeatures features;
     const auto textured = [&](const scene::TextureRef& ref) {
         return usable(scene, ref) && !(ref.uv_set == 0 ? primitive.uv0 : primitive.uv1).empty();
@@ -48,6 +48,14 @@ DrawFeatures features_of(const scene::Scene& scene, const scene::Material& mater
     features.normal_texture = textured(material.normal_texture) && !primitive.tangents.empty();
     features.emission = material.emission * material.emission_strength != glm::vec3(0.0F) || material.unlit;
     features.emission_texture = features.emission && textured(material.emission_texture);
+    features.base_color_encoded =
+        features.base_color_texture && textures.stays_encoded(material.base_color_texture, true);
+    features.metallic_roughness_encoded = features.metallic_roughness_texture &&
+                                          textures.stays_encoded(material.metallic_roughness_texture, false);
+    features.normal_encoded =
+        features.normal_texture && textures.stays_encoded(material.normal_texture, false);
+    features.emission_encoded =
+        features.emission_texture && textures.stays_encoded(material.emission_texture, true);
     const scene::Coverage coverage = scene::coverage(scene, material, primitive);
     features.blend = coverage.blended;
     features.solid = coverage.solid;
@@ -105,9 +113,10 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
     }
     std::vector<GpuMaterial> packed;
     for (const scene::Material& material : materials) {
-        packed.push_back(pack(material));
+        packed.push_back(pack(material, scene_.from_blender));
     }
-    packed.push_back(pack(scene::Material{}));  // glTF's default, for primitives that name none
+    packed.push_back(
+        pack(scene::Material{}, scene_.from_blender));  // glTF's default, for primitives that name none
     if (materials_.bytes() != packed.size() * sizeof(GpuMaterial)) {
         materials_ = gl::Buffer("materials", packed.size() * sizeof(GpuMaterial), GL_DYNAMIC_STORAGE_BIT);
     }
@@ -164,7 +173,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                                              ? vertices_.deformed_range(instance.node, static_cast<int>(p))
                                              : vertices_.range(instance.mesh, static_cast<int>(p));
             Item item;
-            item.batch.features = features_of(scene_, material, primitive);
+            item.batch.features = features_of(scene_, textures_, material, primitive);
             item.batch.cull_back_faces = !material.double_sided && !scene_.from_blender;
             item.batch.mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
             item.batch.material = material_index;

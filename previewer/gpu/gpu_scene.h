@@ -23,6 +23,11 @@ struct DrawFeatures {
     bool normal_texture = false;
     bool emission_texture = false;
     bool emission = false;
+    // Textures that the shader decodes from sRGB (MaterialTextures::stays_encoded()).
+    bool base_color_encoded = false;
+    bool metallic_roughness_encoded = false;
+    bool normal_encoded = false;
+    bool emission_encoded = false;
     bool alpha_test = false;
     bool blend = false;  // parts of it may be neither opaque nor nothing
     bool solid = true;   // parts of it may be opaque

@@ -125,9 +125,8 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
         builder.read(sources);
         out = target.valid()
                   ? builder.write(target)
-                  : builder.create_texture("smoothed", {.format = GL_RGBA32F,
-                                                        .width = context.width,
-                                                        .height = context.height});
+                  : builder.create_texture(
+                        "smoothed", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
         gl::Defines defines;
         if (!layer.empty()) defines["LAYER"] = "1";
         return [context, picture, samples, sources, out, defines](const PassResources& resources) {

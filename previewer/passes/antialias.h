@@ -19,15 +19,16 @@ struct DepthSamples {
 [[nodiscard]] DepthSamples add_depth_samples(FrameGraph& graph, const PassContext& context,
                                              const View& camera);
 
-// Of the blended surfaces next behind `before`, and before the solid ones; without `before`, of the first ones.
+// Of the blended surfaces next behind `before`, and before the solid ones; without `before`, of the first
+// ones.
 [[nodiscard]] DepthSamples add_peeled_samples(FrameGraph& graph, const PassContext& context,
                                               const View& camera, const DepthSamples& solid,
                                               TextureHandle before, const std::string& layer);
 
-// Smooths the outlines of a picture that was shaded once a pixel, into `target`, an RGBA32F texture (invalid: a
-// new one): each depth sample takes the colour of that pixel nearby whose surface it lies on, and samples are
-// weighed by Cycles' own pixel filter (shaders/passes/antialias.comp). layer: of a picture of blended surfaces,
-// radiance times alpha and alpha, its name.
+// Smooths the outlines of a picture that was shaded once a pixel, into `target`, an RGBA32F texture (invalid:
+// a new one): each depth sample takes the colour of that pixel nearby whose surface it lies on, and samples
+// are weighed by Cycles' own pixel filter (shaders/passes/antialias.comp). layer: of a picture of blended
+// surfaces, radiance times alpha and alpha, its name.
 [[nodiscard]] TextureHandle add_antialias(FrameGraph& graph, const PassContext& context,
                                           const GBuffer& gbuffer, const DepthSamples& samples,
                                           TextureHandle picture, TextureHandle target,

@@ -15,8 +15,8 @@ struct CompositeInputs {
     bool layer = false;  // the G-buffer is one of blended surfaces (passes/peel.h)
 };
 
-// Scene-linear radiance times film exposure (of a layer times alpha, with alpha beside it) into `target`, an RGBA32F texture; where that is invalid, into a
-// new one.
+// Scene-linear radiance times film exposure (of a layer times alpha, with alpha beside it) into `target`, an
+// RGBA32F texture; where that is invalid, into a new one.
 TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
                             TextureHandle target);
 

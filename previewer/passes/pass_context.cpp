@@ -58,7 +58,7 @@ bool is_drawn(const gpu::DrawFeatures& features, DrawKind kind, bool blends) {
     return rule != BLEND_SOLID || features.solid;
 }
 
-gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind, bool blends) {
+gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind, bool blends, bool from_blender) {
     gl::Defines defines;
     const auto define_if = [&](bool condition, const char* name) {
         if (condition) {
@@ -75,14 +75,19 @@ gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind, bool
         defines["BLEND_RULE"] = std::to_string(blend_rule(kind, blends));
     }
     define_if(features.base_color_texture, "BASE_COLOR_TEXTURE");
+    define_if(features.base_color_encoded, "BASE_COLOR_ENCODED");
     define_if(features.vertex_color, "VERTEX_COLOR");
     if (depth) {
         return defines;
     }
     define_if(features.metallic_roughness_texture, "METALLIC_ROUGHNESS_TEXTURE");
+    define_if(features.metallic_roughness_encoded, "METALLIC_ROUGHNESS_ENCODED");
     define_if(features.normal_texture, "NORMAL_TEXTURE");
+    define_if(features.normal_encoded, "NORMAL_ENCODED");
+    define_if(features.normal_texture && from_blender && seen_by_camera(kind), "VALID_REFLECTIONS");
     define_if(has_emission(kind) && features.emission, "EMISSION");
     define_if(has_emission(kind) && features.emission_texture, "EMISSION_TEXTURE");
+    define_if(has_emission(kind) && features.emission_encoded, "EMISSION_ENCODED");
     define_if(has_emission(kind), "WRITE_EMISSION");
     define_if(blend_rule(kind, blends) == BLEND_PEEL, "WRITE_ALPHA");
     define_if(kind == DrawKind::light_surface, "LIGHT_VIEW");
@@ -129,7 +134,8 @@ void draw_batches(const PassContext& context, const View* view, bool mirrored, D
         if (runs.empty()) {
             continue;
         }
-        gl::Defines all = batch_defines(batch.features, kind, context.blends);
+        gl::Defines all =
+            batch_defines(batch.features, kind, context.blends, context.scene.source().from_blender);
         all.insert(defines.begin(), defines.end());
         if (batch.draw_count == 1) {
             all["SINGLE_DRAW"] = "1";

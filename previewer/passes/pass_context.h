@@ -72,8 +72,8 @@ enum class DrawKind {
     peeled_surface,
     peeled_surface_with_emission,
     peeled_depth,
-    // As lights see it. Of blended surfaces a part of the texels, but where `depth` cuts them out at one half and
-    // solid_depth leaves them out.
+    // As lights see it. Of blended surfaces a part of the texels, but where `depth` cuts them out at one half
+    // and solid_depth leaves them out.
     light_surface,
     plane,
     depth,

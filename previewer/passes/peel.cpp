@@ -70,6 +70,7 @@ PeeledLayer add_peeled_layer(FrameGraph& graph, const PassContext& context, cons
                                {color, normal, geometric, {&resources.texture(out.gbuffer.emission)}}, depth)
                          : resources.framebuffer({color, normal, geometric}, depth);
             framebuffer.bind();
+            context.uniforms.bind(UBO_FRAME, context.frame);
             clear_depth(framebuffer, 0.0F);
             constexpr std::array<float, 4> nothing{};
             for (int i = 0; i < (emission ? 4 : 3); ++i) {
@@ -77,12 +78,12 @@ PeeledLayer add_peeled_layer(FrameGraph& graph, const PassContext& context, cons
             }
             resources.texture(solid.depth).bind(TEX_DEPTH);
             resources.texture(behind).bind(TEX_PEELED_DEPTH);
-            *out.any = counted(GL_ANY_SAMPLES_PASSED, [&] {
-                           draw_scene(context, camera,
-                                      emission ? DrawKind::peeled_surface_with_emission
-                                               : DrawKind::peeled_surface,
-                                      "passes/gbuffer.frag", {});
-                       }) != 0;
+            *out.any =
+                counted(GL_ANY_SAMPLES_PASSED, [&] {
+                    draw_scene(context, camera,
+                               emission ? DrawKind::peeled_surface_with_emission : DrawKind::peeled_surface,
+                               "passes/gbuffer.frag", {});
+                }) != 0;
         };
     });
     return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blended surfaces, layer by layer from the camera on (Everitt 2001, "Interactive Order-Independent Transparency").
+// Blended surfaces, layer by layer from the camera on (Everitt 2001, "Interactive Order-Independent
+// Transparency").
 #pragma once
 
 #include <memory>
@@ -14,8 +15,8 @@ struct PeeledLayer {
     std::shared_ptr<bool> any;  // whether a surface is in it; known when it was drawn, for a wait
 };
 
-// The blended surfaces next behind those of `before`, and before the solid ones; without `before`, the first ones.
-// The G-buffer's depth is 0 where there are none.
+// The blended surfaces next behind those of `before`, and before the solid ones; without `before`, the first
+// ones. The G-buffer's depth is 0 where there are none.
 [[nodiscard]] PeeledLayer add_peeled_layer(FrameGraph& graph, const PassContext& context, const View& camera,
                                            const GBuffer& solid, TextureHandle before, int number);
 

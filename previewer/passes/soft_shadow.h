@@ -19,7 +19,6 @@ struct SoftShadow {
 // What a G-buffer's surfaces see of the light. Only tiles of 8 x 8 pixels whose maps do not all agree
 // ask every map.
 [[nodiscard]] SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context,
-                                         const GBuffer& gbuffer, const LightPass& light,
-                                         TextureHandle maps);
+                                         const GBuffer& gbuffer, const LightPass& light, TextureHandle maps);
 
 }  // namespace bounce::passes

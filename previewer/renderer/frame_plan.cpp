@@ -175,9 +175,10 @@ void plan_transparency(const scene::Scene& scene, const scene::Pose& pose, const
                        FramePlan& plan) {
     const bool any = scene::draws_blended(scene, pose);
     plan.blends = any && settings.transparent_layers > 0;
-    const bool shown = shows_light(settings.show) && settings.show != Show::unblurred &&
-                       settings.show != Show::removed;
-    plan.blend_layers = plan.blends && (shown || settings.show == Show::vpls) ? settings.transparent_layers : 0;
+    const bool shown =
+        shows_light(settings.show) && settings.show != Show::unblurred && settings.show != Show::removed;
+    plan.blend_layers =
+        plan.blends && (shown || settings.show == Show::vpls) ? settings.transparent_layers : 0;
     if (plan.blend_layers == 0) {
         plan.left_out.push_back({"transparent layers", !any ? "no visible surface is blended"
                                                        : !plan.blends

@@ -30,16 +30,17 @@ struct FramePlan {
     bool interpolate = false;
     bool antialias = false;
     bool emission = false;
-    bool world_light = false;                 // the world is not black
-    bool world_occluded = false;              // and stands as virtual point lights
-    int world_bounces = 0;                    // of its light
-    bool blends = false;                      // blended surfaces have layers of their own
-    int blend_layers = 0;                     // at most so many, where there are any
-    bool motion = false;                      // nothing but where surfaces were in the frame before
-    std::vector<int> lights;                  // into Pose::light_instances, those that send light
-    std::vector<bool> shadows;                // per entry of `lights`
-    std::vector<bool> soft;                   // the same: those whose shadow has a penumbra
-    std::vector<bool> veiled;                 // the same: those that blended surfaces let a part of through, though their shadow is hard
+    bool world_light = false;     // the world is not black
+    bool world_occluded = false;  // and stands as virtual point lights
+    int world_bounces = 0;        // of its light
+    bool blends = false;          // blended surfaces have layers of their own
+    int blend_layers = 0;         // at most so many, where there are any
+    bool motion = false;          // nothing but where surfaces were in the frame before
+    std::vector<int> lights;      // into Pose::light_instances, those that send light
+    std::vector<bool> shadows;    // per entry of `lights`
+    std::vector<bool> soft;       // the same: those whose shadow has a penumbra
+    std::vector<bool>
+        veiled;  // the same: those that blended surfaces let a part of through, though their shadow is hard
     std::vector<LeftOut> left_out;            // and why
     std::vector<std::string> notes;           // why the picture lacks what was asked for
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles

@@ -40,7 +40,8 @@ passes::Layer layer_of(Show show) {
     }
 }
 
-// What each light's shadows are looked up in; parallel to PipelineInputs::lights, invalid where there is none.
+// What each light's shadows are looked up in; parallel to PipelineInputs::lights, invalid where there is
+// none.
 struct ShadowMaps {
     TextureHandle hard;
     TextureHandle soft;
@@ -236,16 +237,16 @@ Light add_layer_light(FrameGraph& graph, const PipelineInputs& in, const Shared&
     if (in.plan.indirect && !in.plan.vpls) {
         GatherInputs gather = shared.gather;
         gather.gbuffer = gbuffer;
-        out.irradiance = in.plan.interpolate ? add_rsm_gather_interpolated(graph, in.context, gather,
-                                                                           in.settings.lowres_step)
-                                                   .irradiance
-                                             : add_rsm_gather(graph, in.context, gather);
+        out.irradiance =
+            in.plan.interpolate
+                ? add_rsm_gather_interpolated(graph, in.context, gather, in.settings.lowres_step).irradiance
+                : add_rsm_gather(graph, in.context, gather);
     }
     return out;
 }
 
-// Blended surfaces over the picture of the solid ones: peeled off from the front, shaded one layer after the other
-// as those are, laid over from the back. What a layer takes is not run where no surface is in it.
+// Blended surfaces over the picture of the solid ones: peeled off from the front, shaded one layer after the
+// other as those are, laid over from the back. What a layer takes is not run where no surface is in it.
 TextureHandle add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
                           TextureHandle picture) {
     using namespace passes;
@@ -272,8 +273,7 @@ TextureHandle add_blended(FrameGraph& graph, const PipelineInputs& in, const Sha
     for (size_t i = layers.size(); i-- > 0;) {
         graph.set_condition([any = layers[i].any] { return *any; });
         const GBuffer& gbuffer = layers[i].gbuffer;
-        CompositeInputs inputs =
-            composite_inputs(in, gbuffer, add_layer_light(graph, in, shared, gbuffer));
+        CompositeInputs inputs = composite_inputs(in, gbuffer, add_layer_light(graph, in, shared, gbuffer));
         inputs.layer = true;
         TextureHandle layer = add_composite(graph, in.context, inputs, {});
         if (in.plan.antialias) {
@@ -441,9 +441,9 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     if (!lights_bounce && !world.empty()) {
         bounced = add_bounced_light(graph, in, gbuffer, {}, lit, world);
     }
-    const TextureHandle shaded = add_composite(
-        graph, context, composite_inputs(in, gbuffer, {direct, irradiance, bounced}),
-        in.plan.antialias ? TextureHandle{} : in.target);
+    const TextureHandle shaded =
+        add_composite(graph, context, composite_inputs(in, gbuffer, {direct, irradiance, bounced}),
+                      in.plan.antialias ? TextureHandle{} : in.target);
     TextureHandle picture = shaded;
     DepthSamples samples;
     if (in.plan.antialias) {

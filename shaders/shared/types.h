@@ -87,7 +87,7 @@ struct GpuMaterial {
     vec4 base_color;
     vec4 emission;          // rgb radiance, a: alpha cutoff
     vec4 surface;           // metallic, roughness, specular, normal scale
-    ivec4 flags;            // diffuse model, unlit, -, -
+    ivec4 flags;            // diffuse model, unlit, 1 where the normal scale is Cycles' strength, -
     vec4 uv[8];             // per texture two rows of uv_transform (xyz); the first row's w is the uv set
 };
 

@@ -125,6 +125,7 @@ class TextureReader {
         if (uvs.empty()) {
             return std::nullopt;
         }
+        color = ref.is_srgb(color);
         const Texture& texture = scene_.textures[at(ref.texture)];
         std::array<glm::vec2, 3> corner;
         for (size_t k = 0; k < 3; ++k) {
@@ -221,7 +222,8 @@ void drop_cut_out(const Scene& scene, const SurfaceParts& parts, std::vector<Poi
             alpha *= color->a;
         }
         // Of a blended surface a part alpha of the points stays.
-        const float cutoff = material.alpha_mode == AlphaMode::blend ? threshold(number) : material.alpha_cutoff;
+        const float cutoff =
+            material.alpha_mode == AlphaMode::blend ? threshold(number) : material.alpha_cutoff;
         ++number;
         if (alpha < cutoff) {
             point.share = 0.0F;
