@@ -97,10 +97,8 @@ void count_unpeeled(FrameGraph& graph, const PassContext& context, const View& c
         builder.side_effect();
         const TextureHandle depth =
             builder.create_texture("depth left out", picture_desc(context, GL_DEPTH_COMPONENT32F));
-        const TextureHandle count = builder.create_texture("left out", picture_desc(context, GL_R8));
-        return [context, camera, solid, last, depth, count, result](const PassResources& resources) {
-            const gl::Framebuffer& framebuffer =
-                resources.framebuffer({{&resources.texture(count)}}, {&resources.texture(depth)});
+        return [context, camera, solid, last, depth, result](const PassResources& resources) {
+            const gl::Framebuffer& framebuffer = resources.framebuffer({}, {&resources.texture(depth)});
             framebuffer.bind();
             resources.texture(solid.depth).bind(TEX_DEPTH);
             resources.texture(last.depth).bind(TEX_PEELED_DEPTH);

@@ -50,7 +50,12 @@ layout(location = ATTRIB_COLOR) in vec4 in_color;
 layout(location = 4) out vec4 out_color;
 #endif
 layout(location = 0) flat out uint out_material;
-#if defined(BLEND_RULE) && BLEND_RULE == BLEND_HASHED
+#ifdef BLEND_RULE
+#if BLEND_RULE == BLEND_HASHED
+#define HASHED_ALPHA
+#endif
+#endif
+#ifdef HASHED_ALPHA
 layout(location = 8) flat out uint out_surface;
 #endif
 #ifdef LIGHT_VIEW
@@ -83,7 +88,7 @@ void main() {
                          dot(draw.render_from_model[2], p));
     gl_Position = view.clip_from_render * vec4(position, 1.0);
     out_material = uint(draw.ids.x);
-#if defined(BLEND_RULE) && BLEND_RULE == BLEND_HASHED
+#ifdef HASHED_ALPHA
     out_surface = uint(draw.ids.z);
 #endif
 #ifndef DEPTH_ONLY
