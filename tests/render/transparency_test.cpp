@@ -137,7 +137,12 @@ TEST_F(Transparency, OpaqueAndAbsentOnesAreExact) {
     };
     EXPECT_THAT(unused(one.report), HasSubstr("no visible surface is blended"));
     const Rendered none = draw(with(0.0F, true), camera, direct_settings(64));
-    EXPECT_EQ(none.image.rgb, draw(with(0.0F, false), camera, direct_settings(64)).image.rgb);
+    // The pane still counts for the scene's bounds, and so for the rounding of its coordinates.
+    const Rendered without = draw(with(0.0F, false), camera, direct_settings(64));
+    for (size_t i = 0; i < none.image.rgb.size(); ++i) {
+        ASSERT_NEAR(none.image.rgb[i], without.image.rgb[i], 1e-5F * without.image.rgb[i]) << "at " << i;
+    }
+    EXPECT_EQ(none.report.executed, without.report.executed);
     EXPECT_NE(none.image.rgb, solid.image.rgb);
 }
 
@@ -205,27 +210,28 @@ Passed passed(const std::vector<float>& alphas, scene::LightType type, Settings 
     return out;
 }
 
-// The mean of 64 maps, each of which holds a part of the veils' texels; noise a few per cent of the light.
+// The mean of 64 maps, a part of which hold each veil: steps of 1/64 for one, and for more what the
+// sequence's dimensions are not independent by.
 TEST_F(Transparency, APartOfTheLightPasses) {
     for (const scene::LightType type : {scene::LightType::sun, scene::LightType::point}) {
         const std::string what = type == scene::LightType::sun ? "sun" : "point";
         for (const float alpha : {0.1F, 0.5F, 0.8F}) {
             const Passed one = passed({alpha}, type, direct_settings(48));
             EXPECT_NEAR(one.mean, 1.0 - static_cast<double>(alpha), 0.004) << what << ", alpha " << alpha;
-            EXPECT_LT(one.deviation, 0.02) << what << ", alpha " << alpha;
+            EXPECT_LT(one.deviation, 0.01) << what << ", alpha " << alpha;
         }
         const Passed two = passed({0.5F, 0.4F}, type, direct_settings(48));
-        EXPECT_NEAR(two.mean, 0.5 * 0.6, 0.01) << what << ", two veils let the product pass";
-        EXPECT_LT(two.deviation, 0.04) << what;
+        EXPECT_NEAR(two.mean, 0.5 * 0.6, 0.025) << what << ", two veils let the product pass";
+        EXPECT_LT(two.deviation, 0.015) << what;
         const Passed three = passed({0.5F, 0.5F, 0.5F}, type, direct_settings(48));
-        EXPECT_NEAR(three.mean, 0.125, 0.015) << what << ", three";
+        EXPECT_NEAR(three.mean, 0.125, 0.025) << what << ", three";
     }
 }
 
 TEST_F(Transparency, HardShadowsAreThoseOfCutOuts) {
     Settings settings = direct_settings(48);
     settings.direct_shadows = DirectShadows::hard;
-    EXPECT_EQ(passed({0.4F}, scene::LightType::sun, settings).mean, 1.0);
+    EXPECT_NEAR(passed({0.4F}, scene::LightType::sun, settings).mean, 1.0, 1e-9);
     EXPECT_LT(passed({0.6F}, scene::LightType::sun, settings).mean, 1e-6);
 }
 
