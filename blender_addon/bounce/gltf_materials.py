@@ -7,7 +7,7 @@ import numpy as np
 from io_scene_gltf2.io.com import gltf2_io
 from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
-from . import materials
+from . import materials, textures
 from .animation import Channel
 from .pointers import Pointer
 from .tracks import is_constant
@@ -34,7 +34,7 @@ def complete(material, blender_material, export):
         if name in values:
             setattr(pbr, attribute, values[name])
     _set_emission(material, export.samples.values["material", key])
-    _set_alpha(material, values)
+    _set_alpha(material, model, export.samples.values["material", key])
     material.extensions["BOUNCE_scene"] = {"diffuse": model.diffuse, "specular": values["specular"]}
 
 
@@ -65,13 +65,22 @@ def _set_emission(material, tracks):
         material.extensions[_STRENGTH] = Extension(_STRENGTH, {"emissiveStrength": scale}, required=False)
 
 
-def _set_alpha(material, values):
+def _set_alpha(material, model, tracks):
     """Cycles lets light through wherever alpha is below 1; Eevee's blend mode, which the exporter reads, says nothing."""
-    alpha = values["baseColorFactor"][3] if "baseColorFactor" in values else None
-    if alpha == 1.0:
-        material.alpha_mode = material.alpha_cutoff = None
-    elif alpha is not None and alpha < 1.0:
-        material.alpha_mode, material.alpha_cutoff = "BLEND", None
+    least = 1.0 if "baseColorFactor" not in tracks else float(np.asarray(tracks["baseColorFactor"])[:, 3].min())
+    material.alpha_mode = material.alpha_cutoff = None
+    if model.alpha_cutoff is not None and least == 1.0:
+        # glTF keeps what equals the cutoff, a Math node does not.
+        material.alpha_mode, material.alpha_cutoff = "MASK", float(np.nextafter(np.float32(model.alpha_cutoff), 2))
+    elif model.alpha_image or least < 1.0:
+        material.alpha_mode = "BLEND"
+
+
+def set_encoding(texture_info, shader_sockets):
+    """Says where an image's colour space is not what glTF takes for granted at this place."""
+    encoding = textures.encoding(shader_sockets[0])
+    if encoding is not None:
+        texture_info.extensions = {**(texture_info.extensions or {}), "BOUNCE_scene": {"encoding": encoding}}
 
 
 def finish_primitives(mesh, blender_materials, export):

@@ -66,6 +66,10 @@ class glTF2ExportUserExtension:
             export.kept_in_order.append(mesh.name)
 
     @_hook
+    def gather_texture_info_hook(self, export, texture_info, blender_shader_sockets, export_settings):
+        gltf_materials.set_encoding(texture_info, blender_shader_sockets)
+
+    @_hook
     def gather_material_hook(self, export, material, blender_material, export_settings):
         gltf_materials.complete(material, blender_material, export)
 

@@ -31,6 +31,13 @@ class Model:
     color_attribute: str = None
     normal_map: bool = False
     issues: list = field(default_factory=list)
+    # What mixes the surface with a Transparent BSDF: (node name, socket identifier) of the Mix Shader's factor.
+    mix_factor: tuple = None
+    # The factor is the part of the Transparent BSDF, not of the surface.
+    mix_is_transparency: bool = False
+    # Alpha comes from an image; where it is compared with a constant, that constant.
+    alpha_image: bool = False
+    alpha_cutoff: float = None
     # Inputs fed by what glTF cannot say; the colour or value that they would have unconnected goes instead.
     unreadable: set = field(default_factory=set)
     # Data paths in the node tree whose animation is exported.
@@ -68,6 +75,7 @@ def analyse(material, blender_version):
     if base is not None:
         model.base = base.name
         _analyse_base(base, model, blender_version)
+    _analyse_mix(tree, base, model)
     if emission is not None:
         model.emission = emission.name
         _use_input(model, emission, "Color")
@@ -81,6 +89,14 @@ def _closures(node, model):
     """(surface closure, emission closure) of a shader node; either may be None."""
     if node.type == "EMISSION":
         return None, node
+    if node.type == "MIX_SHADER":
+        mixed = _mixed_with_transparent(node)
+        if mixed is not None and model.mix_factor is None:
+            child, model.mix_is_transparency = mixed
+            model.mix_factor = (node.name, node.inputs[0].identifier)
+            # Blender's exporter reads the surface's node alone.
+            model.is_exact = False
+            return _closures(child, model)
     if node.type == "ADD_SHADER":
         pairs = [_closures(child, model) for child in _shaders_before(node)]
         bases = [base for base, _ in pairs if base is not None]
@@ -101,6 +117,48 @@ def _closures(node, model):
     return None, None
 
 
+def _mixed_with_transparent(node):
+    """(other shader, whether the factor is the transparent part) where a Mix Shader has a clear Transparent BSDF."""
+    first, second = (sockets.source(socket)[0] for socket in node.inputs[1:3])
+    if first is None or second is None:
+        return None
+    if _is_clear(first):
+        return second, False
+    return (first, True) if _is_clear(second) else None
+
+
+def _is_clear(node):
+    return node.type == "BSDF_TRANSPARENT" and sockets.constant(node.inputs["Color"]) == [1.0, 1.0, 1.0]
+
+
+def _analyse_mix(tree, base, model):
+    """A Mix Shader's factor as alpha: a constant, or an image where nothing else says alpha."""
+    if model.mix_factor is None:
+        return
+    socket = mix_socket(tree, model)
+    if sockets.constant(socket) is not None:
+        _note_animatable(model, socket)
+        return
+    own = None if base is None or base.type != "BSDF_PRINCIPLED" else sockets.constant(base.inputs["Alpha"])
+    if base is None or model.mix_is_transparency or (base.type == "BSDF_PRINCIPLED" and own != 1.0):
+        model.issues.append(f"Mix Shader with a Transparent BSDF, whose factor comes from "
+                            f"{sockets.describe(sockets.source(socket)[0])}: exported opaque")
+        model.mix_factor = None
+    else:
+        _use_alpha(model, "Mix Shader: Factor", socket)
+
+
+def mix_socket(tree, model):
+    node, identifier = model.mix_factor
+    return next(socket for socket in tree.nodes[node].inputs if socket.identifier == identifier)
+
+
+def _use_alpha(model, what, socket):
+    chain, model.alpha_cutoff = textures.follow_alpha(socket)
+    _use_chain(model, what, chain)
+    model.alpha_image = chain.has_image and (not chain.problem or chain.image_is_taken)
+
+
 def _shaders_before(node):
     for socket in node.inputs:
         if socket.type == "SHADER":
@@ -117,10 +175,12 @@ def _analyse_base(node, model, blender_version):
             if socket is not None and sockets.constant(socket) != 0.0:
                 model.issues.append(f"Principled BSDF: {name}")
         _use_input(model, node, "Base Color", allow_color_attribute=True)
-        for name in ("Metallic", "Roughness", "Emission", "Alpha"):
+        for name in ("Metallic", "Roughness", "Emission"):
             _use_input(model, node, name)
         for name in ("Specular", "Emission Strength"):
             _require_constant(model, node, name)
+        _analyse_alpha(node, model)
+        _analyse_reflection(node, model)
     else:
         _use_input(model, node, "Color", allow_color_attribute=True)
         if node.type == "BSDF_DIFFUSE":
@@ -135,6 +195,28 @@ def _analyse_base(node, model, blender_version):
         chain = textures.follow_normal(node.inputs["Normal"])
         _use_chain(model, "Normal", chain)
         model.normal_map = chain.has_image and not chain.problem
+
+
+def _analyse_alpha(node, model):
+    socket = node.inputs["Alpha"]
+    if sockets.constant(socket) is not None:
+        _note_animatable(model, socket)
+        return
+    _use_alpha(model, f"{sockets.describe(node)}: Alpha", socket)
+    if not model.alpha_image:
+        model.unreadable.add((node.name, socket.identifier))
+
+
+def _analyse_reflection(node, model):
+    tint = input_of(node, "Specular Tint")
+    neutral = (0.0, [1.0, 1.0, 1.0])  # a number before Blender 4.0, a colour since
+    if tint is not None and sockets.constant(tint) not in neutral:
+        model.issues.append("Principled BSDF: Specular Tint")
+    if node.distribution == "MULTI_GGX":
+        model.issues.append("Principled BSDF: Multiscatter GGX, exported as GGX")
+    roughness = node.inputs.get("Diffuse Roughness")
+    if roughness is not None and sockets.constant(roughness) != 0.0:
+        model.issues.append("Principled BSDF: Diffuse Roughness")
 
 
 def is_metal(node):
@@ -175,6 +257,7 @@ def _note_animatable(model, socket):
 
 
 def _use_chain(model, what, chain):
+    model.issues.extend(f"{what}: {note}" for note in chain.notes)
     if chain.problem:
         instead = "; its image is exported as it is" if chain.image_is_taken else ""
         model.issues.append(f"{what} comes from {chain.problem}{instead}")
@@ -196,6 +279,7 @@ def values(material, model):
         result["baseColorFactor"] = [0.0, 0.0, 0.0, 1.0]
     else:
         result.update(_base_values(nodes[model.base], model))
+    result["baseColorFactor"][3] *= _mix_alpha(material.node_tree, model)
     if model.emission is not None:
         result["emissive"] = _emission_values(nodes[model.emission], model)
     elif model.base is not None and nodes[model.base].type == "BSDF_PRINCIPLED":
@@ -206,19 +290,39 @@ def values(material, model):
 
 def _base_values(node, model):
     if node.type != "BSDF_PRINCIPLED":
-        color = _value(node, "Color", model)
-        result = {"baseColorFactor": None if color is None else [*_unit(color), 1.0]}
+        color = _factor(node, "Color", model)
+        result = {"baseColorFactor": [*_unit(color), 1.0]}
         if is_metal(node):
             result.update(metallicFactor=1.0, roughnessFactor=_value(node, "Roughness", model))
         return result
-    color, alpha = _value(node, "Base Color", model), _value(node, "Alpha", model)
+    color, alpha = _factor(node, "Base Color", model), _factor(node, "Alpha", model)
     specular = sockets.constant(input_of(node, "Specular"))
     return {
-        "baseColorFactor": None if color is None or alpha is None else [*_unit(color), alpha],
+        "baseColorFactor": [*_unit(color), min(1.0, max(0.0, alpha))],
         "metallicFactor": _value(node, "Metallic", model),
         "roughnessFactor": _value(node, "Roughness", model),
-        "specular": input_of(node, "Specular").default_value if specular is None else specular,
+        "specular": _specular(node, input_of(node, "Specular").default_value if specular is None else specular),
     }
+
+
+def _specular(node, level):
+    """F0 / 0.08. Since Blender 4.0 the index of refraction says F0 and the level, neutral at one half, scales it."""
+    if "Specular IOR Level" not in node.inputs:
+        return level
+    ior = sockets.constant(node.inputs["IOR"])
+    ior = node.inputs["IOR"].default_value if ior is None else ior
+    return 2.0 * level * ((ior - 1.0) / (ior + 1.0)) ** 2 / 0.08
+
+
+def _mix_alpha(tree, model):
+    """Part of the surface in a Mix Shader with a Transparent BSDF; 1 where an image says it."""
+    if model.mix_factor is None:
+        return 1.0
+    factor = sockets.constant(mix_socket(tree, model))
+    if factor is None:
+        return textures.constant_factor(mix_socket(tree, model), 1)[0]
+    factor = min(1.0, max(0.0, factor))
+    return 1.0 - factor if model.mix_is_transparency else factor
 
 
 def _emission_values(node, model):
@@ -246,6 +350,16 @@ def _value(node, name, model):
     if value is None and (node.name, socket.identifier) in model.unreadable:
         value = sockets.unconnected(socket)
     return value
+
+
+def _factor(node, name, model):
+    """What glTF's factor has to be: the constant, or the constant that a texture is multiplied by."""
+    value = _value(node, name, model)
+    if value is not None:
+        return value
+    size = 1 if name == "Alpha" else 3
+    factor = textures.constant_factor(input_of(node, name), size)
+    return factor[0] if size == 1 else factor
 
 
 def _unit(color):

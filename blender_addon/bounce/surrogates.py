@@ -17,6 +17,10 @@ def stand_in(material, model, edits):
     if base is not None and base.type != "BSDF_PRINCIPLED":
         closure = _principled_like(tree, base, edits)
         _take_over(tree, base.outputs[0], closure.outputs[0], edits)
+    if model.mix_factor is not None and closure is not None:
+        factor = materials.mix_socket(tree, model)
+        if sockets.constant(factor) is None:
+            edits.undo_with(tree.links.remove, tree.links.new(factor.links[0].from_socket, closure.inputs["Alpha"]))
     if not model.is_exact:
         # Blender's exporter would take whichever Principled BSDF it meets first, past any Mix Shader.
         chosen = closure or tree.nodes[model.emission] if (closure or model.emission) else None

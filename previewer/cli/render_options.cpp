@@ -310,6 +310,11 @@ void RenderOptions::add_to(CLI::App& command) {
         "Shadows of lights with a size: hard, from the light's centre; vpl: soft, from many places on "
         "it, with a shadow map each",
         name_of(Settings{}.direct_shadows));
+    group.number("--transparent-layers", transparent_layers,
+                 fmt::format("Blended surfaces that a pixel shows at most, from the camera on, 0 to {}; 0: "
+                             "cut out at one half",
+                             k_most_transparent_layers),
+                 std::to_string(Settings{}.transparent_layers));
     group.number("--shadow-samples", shadow_samples,
                  fmt::format("Soft shadows: places on a light, {} to {}, a power of two",
                              k_least_shadow_samples, k_most_shadow_samples),
@@ -380,6 +385,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(antialias, out.antialias);
     set(shadow_size, out.shadow_size);
     set(direct_shadows, setting_names<DirectShadows>(), out.direct_shadows);
+    set(transparent_layers, out.transparent_layers);
     set(shadow_samples, out.shadow_samples);
     set(soft_shadow_size, out.soft_shadow_size);
     set(show, setting_names<Show>(), out.show);

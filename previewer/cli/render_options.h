@@ -69,6 +69,7 @@ struct RenderOptions {
     std::optional<int> samples_a_pixel;  // of a still
     std::optional<int> shadow_size;
     std::optional<std::string> direct_shadows;
+    std::optional<int> transparent_layers;
     std::optional<int> shadow_samples;
     std::optional<int> soft_shadow_size;
     std::optional<std::string> show;

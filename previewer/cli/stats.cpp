@@ -83,7 +83,8 @@ ordered_json settings_json(const Settings& s) {
         {"samples", s.samples},
         {"world_vpls", s.world_vpls},
         {"emitter_vpls", s.emitter_vpls},
-        {"emitter_panels", s.emitter_panels}};
+        {"emitter_panels", s.emitter_panels},
+        {"transparent_layers", s.transparent_layers}};
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;

@@ -206,13 +206,17 @@ void FrameGraph::execute(gl::PassTimer& timer) {
                 acquire(resource);
             }
         }
-        {
-            const gl::DebugGroup group(name);
-            const TimedPass timed(timer, name);
-            passes_[pass].execute(PassResources(*this, static_cast<int>(pass)));
+        if (passes_[pass].condition && !passes_[pass].condition()) {
+            skipped_.push_back(name);
+        } else {
+            {
+                const gl::DebugGroup group(name);
+                const TimedPass timed(timer, name);
+                passes_[pass].execute(PassResources(*this, static_cast<int>(pass)));
+            }
+            gl::throw_on_debug_error(name);
+            executed_.push_back(name);
         }
-        gl::throw_on_debug_error(name);
-        executed_.push_back(name);
         for (Resource& resource : resources_) {
             if (resource.last_use == static_cast<int>(pass)) {
                 release(resource);

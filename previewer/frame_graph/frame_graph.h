@@ -78,10 +78,14 @@ class FrameGraph {
     template <typename Setup>
     void add_pass(const std::string& name, Setup&& setup) {
         const int pass = dependencies_.add_pass(name);
-        passes_.push_back({name, {}, {}});
+        passes_.push_back({name, {}, {}, condition_});
         PassBuilder builder(*this, pass);
         passes_.back().execute = setup(builder);
     }
+
+    // Passes that are added until the next call run only where the condition holds when their turn comes;
+    // null: they always run. What a pass that does not run would have written is undefined.
+    void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
 
     // Runs the live passes in the order they were added; GL errors are thrown with the pass's name.
     void execute(gl::PassTimer& timer);
@@ -89,6 +93,8 @@ class FrameGraph {
     // After execute(): names in order of execution, and of those culled.
     [[nodiscard]] const std::vector<std::string>& executed() const { return executed_; }
     [[nodiscard]] const std::vector<std::string>& culled() const { return culled_; }
+    // Live ones whose condition did not hold.
+    [[nodiscard]] const std::vector<std::string>& skipped() const { return skipped_; }
     [[nodiscard]] std::string to_dot() const { return dependencies_.to_dot(); }
 
   private:
@@ -113,6 +119,7 @@ class FrameGraph {
         std::string name;
         Execute execute;
         std::vector<int> resources;  // declared, by resource (not version)
+        std::function<bool()> condition;
     };
 
     int add_version(int resource);
@@ -129,6 +136,8 @@ class FrameGraph {
     std::vector<int> resource_of_version_;
     std::vector<std::string> executed_;
     std::vector<std::string> culled_;
+    std::vector<std::string> skipped_;
+    std::function<bool()> condition_;
 };
 
 }  // namespace bounce

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "scene/transparency.h"
+
 namespace bounce::gpu {
 namespace {
 
@@ -19,17 +21,13 @@ bool usable(const scene::Scene& scene, const scene::TextureRef& ref) {
     return ref.present() && scene.textures[at(ref.texture)].image != scene::k_none;
 }
 
-GpuMaterial pack(const scene::Material& material) {
+GpuMaterial pack(const scene::Material& material, bool from_blender) {
     GpuMaterial out{};
     out.base_color = material.base_color;
     out.emission = glm::vec4(material.emission * material.emission_strength, material.alpha_cutoff);
-    // A blended surface is drawn as a cut-out at one half; the loader's caller is told (renderer/frame_plan).
-    if (material.alpha_mode == scene::AlphaMode::blend) {
-        out.emission.a = 0.5F;
-    }
     out.surface = {material.metallic, material.roughness, material.specular, material.normal_scale};
     out.flags = {material.diffuse == scene::DiffuseModel::disney ? DIFFUSE_DISNEY : DIFFUSE_LAMBERT,
-                 material.unlit ? 1 : 0, 0, 0};
+                 material.unlit ? 1 : 0, from_blender ? 1 : 0, 0};
     const scene::TextureRef* refs[4] = {&material.base_color_texture, &material.metallic_roughness_texture,
                                         &material.normal_texture, &material.emission_texture};
     for (int i = 0; i < 4; ++i) {
@@ -40,8 +38,8 @@ GpuMaterial pack(const scene::Material& material) {
     return out;
 }
 
-DrawFeatures features_of(const scene::Scene& scene, const scene::Material& material,
-                         const scene::Primitive& primitive) {
+DrawFeatures features_of(const scene::Scene& scene, const MaterialTextures& textures,
+                         const scene::Material& material, const scene::Primitive& primitive) {
     DrawFeatures features;
     const auto textured = [&](const scene::TextureRef& ref) {
         return usable(scene, ref) && !(ref.uv_set == 0 ? primitive.uv0 : primitive.uv1).empty();
@@ -51,7 +49,18 @@ DrawFeatures features_of(const scene::Scene& scene, const scene::Material& mater
     features.normal_texture = textured(material.normal_texture) && !primitive.tangents.empty();
     features.emission = material.emission * material.emission_strength != glm::vec3(0.0F) || material.unlit;
     features.emission_texture = features.emission && textured(material.emission_texture);
-    features.alpha_test = material.alpha_mode != scene::AlphaMode::opaque;
+    features.base_color_encoded =
+        features.base_color_texture && textures.stays_encoded(material.base_color_texture, true);
+    features.metallic_roughness_encoded = features.metallic_roughness_texture &&
+                                          textures.stays_encoded(material.metallic_roughness_texture, false);
+    features.normal_encoded =
+        features.normal_texture && textures.stays_encoded(material.normal_texture, false);
+    features.emission_encoded =
+        features.emission_texture && textures.stays_encoded(material.emission_texture, true);
+    const scene::Coverage coverage = scene::coverage(scene, material, primitive);
+    features.blend = coverage.blended;
+    features.solid = coverage.solid;
+    features.alpha_test = material.alpha_mode == scene::AlphaMode::mask || coverage.blended;
     features.vertex_color = !primitive.colors.empty();
     return features;
 }
@@ -77,6 +86,11 @@ GpuDraw pack_draw(const glm::dmat4& m, int material) {
     }
     draw.ids = {material, sign < 0.0 ? 1 : 0, 0, 0};
     return draw;
+}
+
+// The same in every frame, whatever else is drawn: what noise hangs on must not jump.
+int draw_number(const scene::DrawInstance& instance, int primitive, int copy) {
+    return ((instance.node * 31 + primitive) * 31 + copy) & 0x7fffff;
 }
 
 bool same_material(const scene::Material& a, const scene::Material& b) {
@@ -112,9 +126,10 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
     }
     std::vector<GpuMaterial> packed;
     for (const scene::Material& material : materials) {
-        packed.push_back(pack(material));
+        packed.push_back(pack(material, scene_.from_blender));
     }
-    packed.push_back(pack(scene::Material{}));  // glTF's default, for primitives that name none
+    packed.push_back(
+        pack(scene::Material{}, scene_.from_blender));  // glTF's default, for primitives that name none
     if (materials_.bytes() != packed.size() * sizeof(GpuMaterial)) {
         materials_ = gl::Buffer("materials", packed.size() * sizeof(GpuMaterial), GL_DYNAMIC_STORAGE_BIT);
     }
@@ -146,12 +161,14 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         double scale = 1.0;
     };
     std::vector<Item> items;
-    has_emission_ = has_disney_ = has_specular_ = false;
+    std::vector<int> copies(scene_.nodes.size(), 0);
+    has_emission_ = has_disney_ = has_specular_ = has_blended_ = false;
     triangles_ = 0;
     for (size_t i = 0; i < pose.draws.size(); ++i) {
         const scene::DrawInstance& instance = pose.draws[i];
         const scene::Mesh& mesh = scene_.meshes[at(instance.mesh)];
         const bool deformed = vertices_.node_deforms(instance.node);
+        ++copies[at(instance.node)];
         for (size_t p = 0; p < mesh.primitives.size(); ++p) {
             const scene::Primitive& primitive = mesh.primitives[p];
             if (primitive.indices.empty()) {
@@ -160,6 +177,9 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             const bool has_material = primitive.material != scene::k_none;
             const scene::Material& material =
                 has_material ? pose.materials[at(primitive.material)] : default_material;
+            if (!scene::coverage(scene_, material, primitive).visible) {
+                continue;
+            }
             const int material_index =
                 has_material ? primitive.material : static_cast<int>(pose.materials.size());
             const glm::dmat4 transform = render_from_vertices(instance, static_cast<int>(p));
@@ -167,7 +187,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                                              ? vertices_.deformed_range(instance.node, static_cast<int>(p))
                                              : vertices_.range(instance.mesh, static_cast<int>(p));
             Item item;
-            item.batch.features = features_of(scene_, material, primitive);
+            item.batch.features = features_of(scene_, textures_, material, primitive);
             item.batch.cull_back_faces = !material.double_sided && !scene_.from_blender;
             item.batch.mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
             item.batch.material = material_index;
@@ -178,11 +198,13 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             item.batch.primitive = static_cast<int>(p);
             item.scale = model_scale(pose, instance, transform, space_);
             item.draw = pack_draw(transform, material_index);
+            item.draw.ids.z = draw_number(instance, static_cast<int>(p), copies[at(instance.node)]);
             scene::Bounds world;
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
             item.box = gpu::draw_box(world, space_);
             item.source = {static_cast<int>(i), static_cast<int>(p)};
             items.push_back(item);
+            has_blended_ |= item.batch.features.blend;
             has_emission_ |= item.batch.features.emission;
             has_disney_ |= material.diffuse == scene::DiffuseModel::disney;
             has_specular_ |= material.specular > 0.0F || material.metallic > 0.0F;
@@ -251,7 +273,7 @@ void GpuScene::simplify(const scene::Simplification& settings) {
         const double error = simplified_[at(batch.mesh)][at(batch.primitive)].error_model;
         for (uint32_t draw = batch.first_draw; draw < batch.first_draw + batch.draw_count; ++draw) {
             const double moved = error * draw_scales_[draw];
-            draw_data_[draw].ids.z = std::bit_cast<int>(static_cast<float>(moved));
+            draw_data_[draw].ids.w = std::bit_cast<int>(static_cast<float>(moved));
             simplified_error_m_ = std::max(simplified_error_m_, moved / space_.scale);
         }
     }

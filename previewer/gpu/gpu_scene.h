@@ -24,7 +24,14 @@ struct DrawFeatures {
     bool normal_texture = false;
     bool emission_texture = false;
     bool emission = false;
+    // Textures that the shader decodes from sRGB (MaterialTextures::stays_encoded()).
+    bool base_color_encoded = false;
+    bool metallic_roughness_encoded = false;
+    bool normal_encoded = false;
+    bool emission_encoded = false;
     bool alpha_test = false;
+    bool blend = false;  // parts of it may be neither opaque nor nothing
+    bool solid = true;   // parts of it may be opaque
     bool vertex_color = false;
     friend bool operator==(const DrawFeatures&, const DrawFeatures&) = default;
     friend auto operator<=>(const DrawFeatures&, const DrawFeatures&) = default;
@@ -89,6 +96,8 @@ class GpuScene {
     [[nodiscard]] bool deforms() const { return !vertices_.jobs().empty(); }
     [[nodiscard]] bool has_emission() const { return has_emission_; }
     [[nodiscard]] bool has_disney_diffuse() const { return has_disney_; }
+    // Anything neither opaque nor nothing.
+    [[nodiscard]] bool has_blended() const { return has_blended_; }
     [[nodiscard]] bool has_specular() const { return has_specular_; }
     [[nodiscard]] size_t triangles_drawn() const { return triangles_; }
     [[nodiscard]] const VertexStore& vertices() const { return vertices_; }
@@ -131,6 +140,7 @@ class GpuScene {
     bool has_emission_ = false;
     bool has_disney_ = false;
     bool has_specular_ = false;
+    bool has_blended_ = false;
     size_t triangles_ = 0;
 };
 

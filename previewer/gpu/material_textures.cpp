@@ -24,7 +24,15 @@ GLint gl_wrap(scene::Wrap wrap) {
     return GL_REPEAT;
 }
 
-gl::Object<delete_sampler> make_sampler(const scene::Sampler& sampler) {
+// Where MaterialTextures::stays_encoded() is true of a texture that is read as sRGB; of others it has no
+// effect.
+bool skip_decode(const scene::Scene& scene, const scene::Texture& texture) {
+    return scene.from_blender && texture.image != scene::k_none &&
+           !scene.images[static_cast<size_t>(texture.image)].rgba8.empty() &&
+           epoxy_has_gl_extension("GL_EXT_texture_sRGB_decode");
+}
+
+gl::Object<delete_sampler> make_sampler(const scene::Sampler& sampler, bool encoded) {
     GLuint id = 0;
     glCreateSamplers(1, &id);
     const bool linear = sampler.minify == scene::Filter::linear;
@@ -35,6 +43,9 @@ gl::Object<delete_sampler> make_sampler(const scene::Sampler& sampler) {
                         sampler.magnify == scene::Filter::linear ? GL_LINEAR : GL_NEAREST);
     glSamplerParameteri(id, GL_TEXTURE_WRAP_S, gl_wrap(sampler.wrap_u));
     glSamplerParameteri(id, GL_TEXTURE_WRAP_T, gl_wrap(sampler.wrap_v));
+    if (encoded) {
+        glSamplerParameteri(id, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    }
     // Mesa's software drivers filter anisotropically at up to 40 s a picture, where a GPU does it in passing.
     if (linear && !gl::is_software_driver() && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         glSamplerParameterf(id, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8.0F);
@@ -87,12 +98,13 @@ scene::Image narrowed(const scene::Image& image) {
 
 MaterialTextures::MaterialTextures(const scene::Scene& scene) : scene_(scene) {
     for (const scene::Texture& texture : scene.textures) {
-        samplers_.push_back(make_sampler(texture.sampler));
+        samplers_.push_back(make_sampler(texture.sampler, skip_decode(scene, texture)));
     }
     const auto add = [&](const scene::TextureRef& ref, bool color) {
         if (!ref.present()) {
             return;
         }
+        color = ref.is_srgb(color);
         const int index = scene.textures[static_cast<size_t>(ref.texture)].image;
         if (index == scene::k_none || images_.contains({index, color})) {
             return;
@@ -109,10 +121,20 @@ MaterialTextures::MaterialTextures(const scene::Scene& scene) : scene_(scene) {
     }
 }
 
+bool MaterialTextures::stays_encoded(const scene::TextureRef& ref, bool color) const {
+    if (!ref.present() || !scene_.from_blender || !epoxy_has_gl_extension("GL_EXT_texture_sRGB_decode")) {
+        return false;
+    }
+    const int image = scene_.textures[static_cast<size_t>(ref.texture)].image;
+    return ref.is_srgb(color) && image != scene::k_none &&
+           !scene_.images[static_cast<size_t>(image)].rgba8.empty();
+}
+
 void MaterialTextures::bind(GLuint unit, const scene::TextureRef& ref, bool color) const {
     if (!ref.present()) {
         return;
     }
+    color = ref.is_srgb(color);
     const auto texture = static_cast<size_t>(ref.texture);
     const auto found = images_.find({scene_.textures[texture].image, color});
     if (found != images_.end()) {

@@ -21,6 +21,10 @@ class MaterialTextures {
   public:
     explicit MaterialTextures(const scene::Scene& scene);
 
+    // Whether the shader has to decode what it reads from sRGB: Cycles interpolates 8-bit images between
+    // their encoded texels, as glTF does not. Levels of detail are means of light either way.
+    [[nodiscard]] bool stays_encoded(const scene::TextureRef& ref, bool color) const;
+
     // Binds a material's texture to a unit; absent references are left as they are.
     void bind(GLuint unit, const scene::TextureRef& ref, bool color) const;
 

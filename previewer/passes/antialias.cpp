@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/antialias.h"
 
-#include <array>
-#include <memory>
-
 #include "passes/pixel_filter.h"
 
 namespace bounce::passes {
@@ -39,62 +36,105 @@ std::array<float, 9 * k_samples> filter_weights(const std::array<glm::vec2, k_sa
     return weights;
 }
 
-TextureHandle add_depth_samples(FrameGraph& graph, const PassContext& context, const View& camera,
-                                const std::shared_ptr<std::array<glm::vec2, k_samples>>& places) {
-    TextureHandle samples;
+gl::TextureDesc sample_desc(const PassContext& context) {
+    return {.format = GL_DEPTH_COMPONENT32F,
+            .width = context.width,
+            .height = context.height,
+            .samples = k_samples};
+}
+
+std::string named(const char* pass, const std::string& layer) {
+    return layer.empty() ? pass : std::string(pass) + ", " + layer;
+}
+
+}  // namespace
+
+DepthSamples add_depth_samples(FrameGraph& graph, const PassContext& context, const View& camera) {
+    DepthSamples out{{}, std::make_shared<std::array<glm::vec2, k_samples>>()};
     graph.add_pass("depth samples", [&](PassBuilder& builder) {
-        samples = builder.create_texture("depth samples", {.format = GL_DEPTH_COMPONENT32F,
-                                                           .width = context.width,
-                                                           .height = context.height,
-                                                           .samples = k_samples});
-        return [context, camera, samples, places](const PassResources& resources) {
-            const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(samples)});
+        out.depth = builder.create_texture("depth samples", sample_desc(context));
+        return [context, camera, out](const PassResources& resources) {
+            const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(out.depth)});
             target.bind();
-            *places = sample_places();
+            *out.places = sample_places();
             const float far_depth = 0.0F;
             glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
             draw_scene(context, camera, DrawKind::seen_depth, "passes/shadow_map.frag", {});
         };
     });
-    return samples;
+    return out;
 }
 
-}  // namespace
+DepthSamples add_peeled_samples(FrameGraph& graph, const PassContext& context, const View& camera,
+                                const DepthSamples& solid, TextureHandle before, const std::string& layer) {
+    DepthSamples out{{}, solid.places};
+    graph.add_pass(named("depth samples", layer), [&](PassBuilder& builder) {
+        builder.read(solid.depth);
+        const bool first = !before.valid();
+        TextureHandle behind = before;
+        if (first) {
+            behind = builder.create_texture("nothing peeled", sample_desc(context));
+        } else {
+            builder.read(behind);
+        }
+        out.depth = builder.create_texture("depth samples", sample_desc(context));
+        return [context, camera, solid, behind, first, out](const PassResources& resources) {
+            const float far_depth = 0.0F;
+            const float near_depth = 1.0F;
+            if (first) {
+                glClearNamedFramebufferfv(resources.framebuffer({}, {&resources.texture(behind)}).id(),
+                                          GL_DEPTH, 0, &near_depth);
+            }
+            const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(out.depth)});
+            target.bind();
+            glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
+            resources.texture(solid.depth).bind(TEX_DEPTH);
+            resources.texture(behind).bind(TEX_PEELED_DEPTH);
+            draw_scene(context, camera, DrawKind::peeled_depth, "passes/shadow_map.frag",
+                       {{"PEEL_SAMPLES", "1"}});
+        };
+    });
+    return out;
+}
 
 TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                            const View& camera, TextureHandle picture, TextureHandle target) {
-    const auto places = std::make_shared<std::array<glm::vec2, k_samples>>();  // known when they are drawn
-    const TextureHandle samples = add_depth_samples(graph, context, camera, places);
+                            const DepthSamples& samples, TextureHandle picture, TextureHandle target,
+                            const std::string& layer) {
     TextureHandle sources;
-    graph.add_pass("sample sources", [&](PassBuilder& builder) {
+    graph.add_pass(named("sample sources", layer), [&](PassBuilder& builder) {
         read_gbuffer(builder, gbuffer);
         builder.read(gbuffer.geometric_normal);
-        builder.read(samples);
+        builder.read(samples.depth);
         sources = builder.create_texture(
             "sample sources", {.format = GL_R16UI, .width = context.width, .height = context.height});
-        return [context, gbuffer, samples, sources, places](const PassResources& resources) {
+        return [context, gbuffer, samples, sources](const PassResources& resources) {
             context.programs.compute("passes/sample_sources.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
             bind_gbuffer(resources, gbuffer);
             resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
-            resources.texture(samples).bind(TEX_DEPTH_SAMPLES);
+            resources.texture(samples.depth).bind(TEX_DEPTH_SAMPLES);
             resources.texture(sources).bind_image(IMG_OUT, GL_WRITE_ONLY);
-            glUniform2fv(0, k_samples, &places->front().x);
+            glUniform2fv(0, k_samples, &samples.places->front().x);
             dispatch_2d(context.width, context.height);
             finish_writes();
         };
     });
     TextureHandle out;
-    graph.add_pass("antialias", [&](PassBuilder& builder) {
+    graph.add_pass(named("antialias", layer), [&](PassBuilder& builder) {
         builder.read(picture);
         builder.read(sources);
-        out = builder.write(target);
-        return [context, picture, sources, out, places](const PassResources& resources) {
-            context.programs.compute("passes/antialias.comp").use();
+        out = target.valid()
+                  ? builder.write(target)
+                  : builder.create_texture(
+                        "smoothed", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
+        gl::Defines defines;
+        if (!layer.empty()) defines["LAYER"] = "1";
+        return [context, picture, samples, sources, out, defines](const PassResources& resources) {
+            context.programs.compute("passes/antialias.comp", defines).use();
             context.uniforms.bind(UBO_FRAME, context.frame);
             resources.texture(picture).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(sources).bind_image(IMG_SOURCES, GL_READ_ONLY);
-            const std::array<float, 9 * k_samples> weights = filter_weights(*places);
+            const std::array<float, 9 * k_samples> weights = filter_weights(*samples.places);
             glUniform1fv(0, static_cast<GLsizei>(weights.size()), weights.data());
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

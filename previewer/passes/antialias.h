@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <memory>
+
 #include "passes/gbuffer.h"
 
 namespace bounce::passes {
 
-// Smooths the outlines of a picture that was shaded once a pixel, into `target`, an imported RGBA32F texture:
-// the scene's depth is drawn again at four samples a pixel, each sample takes the colour of that pixel nearby
-// whose surface it lies on, and samples are weighed by Cycles' own pixel filter
-// (shaders/passes/antialias.comp).
+// Depth at AA_SAMPLES places of each pixel.
+struct DepthSamples {
+    TextureHandle depth;
+    // From a pixel's middle; known when they are drawn.
+    std::shared_ptr<std::array<glm::vec2, AA_SAMPLES>> places;
+};
+
+// Of the solid surfaces.
+[[nodiscard]] DepthSamples add_depth_samples(FrameGraph& graph, const PassContext& context,
+                                             const View& camera);
+
+// Of the blended surfaces next behind `before`, and before the solid ones; without `before`, of the first
+// ones.
+[[nodiscard]] DepthSamples add_peeled_samples(FrameGraph& graph, const PassContext& context,
+                                              const View& camera, const DepthSamples& solid,
+                                              TextureHandle before, const std::string& layer);
+
+// Smooths the outlines of a picture that was shaded once a pixel, into `target`, an RGBA32F texture (invalid:
+// a new one): each depth sample takes the colour of that pixel nearby whose surface it lies on, and samples
+// are weighed by Cycles' own pixel filter (shaders/passes/antialias.comp). layer: of a picture of blended
+// surfaces, radiance times alpha and alpha, its name.
 [[nodiscard]] TextureHandle add_antialias(FrameGraph& graph, const PassContext& context,
-                                          const GBuffer& gbuffer, const View& camera, TextureHandle picture,
-                                          TextureHandle target);
+                                          const GBuffer& gbuffer, const DepthSamples& samples,
+                                          TextureHandle picture, TextureHandle target,
+                                          const std::string& layer = {});
 
 }  // namespace bounce::passes

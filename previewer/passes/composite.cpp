@@ -52,6 +52,10 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             defines["RADIANCE"] = "1";
         }
         if (inputs.world_light) defines["WORLD"] = "1";
+        if (inputs.layer) {
+            builder.read(inputs.gbuffer.geometric_normal);
+            defines["LAYER"] = "1";
+        }
         const bool emission = inputs.emission && inputs.gbuffer.emission.valid();
         if (emission) {
             builder.read(inputs.gbuffer.emission);
@@ -76,6 +80,9 @@ TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const
             }
             if (inputs.lobes.valid()) resources.texture(inputs.lobes).bind_image(IMG_LOBES, GL_READ_ONLY);
             if (inputs.radiance.valid()) resources.texture(inputs.radiance).bind(TEX_RSM);
+            if (inputs.layer) {
+                resources.texture(inputs.gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
+            }
             if (emission) resources.texture(inputs.gbuffer.emission).bind(TEX_GBUFFER2);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

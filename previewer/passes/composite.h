@@ -15,6 +15,7 @@ struct CompositeInputs {
     TextureHandle radiance;    // what some surfaces reflect, added as it is; invalid: none
     bool world_light = false;
     bool emission = false;
+    bool layer = false;  // the G-buffer is one of blended surfaces (passes/peel.h)
 };
 
 // Light of a frame that only surfaces reflect, as it leaves them, in a new texture: bounced light where the
@@ -22,8 +23,8 @@ struct CompositeInputs {
 [[nodiscard]] TextureHandle add_reflected(FrameGraph& graph, const PassContext& context,
                                           const GBuffer& gbuffer, TextureHandle bounced);
 
-// Scene-linear radiance times film exposure into `target`, an RGBA32F texture; where that is invalid, into a
-// new one.
+// Scene-linear radiance times film exposure (of a layer times alpha, with alpha beside it) into `target`, an
+// RGBA32F texture; where that is invalid, into a new one.
 TextureHandle add_composite(FrameGraph& graph, const PassContext& context, const CompositeInputs& inputs,
                             TextureHandle target);
 

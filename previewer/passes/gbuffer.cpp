@@ -47,6 +47,7 @@ GBuffer add(FrameGraph& graph, const PassContext& context, const View& camera, g
                                {color, normal, geometric, {&resources.texture(out.emission)}}, depth)
                          : resources.framebuffer({color, normal, geometric}, depth);
             framebuffer.bind();
+            context.uniforms.bind(UBO_FRAME, context.frame);
             constexpr std::array<float, 4> black{};
             const float far_depth = 0.0F;
             glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far_depth);

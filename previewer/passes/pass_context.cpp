@@ -4,29 +4,92 @@
 namespace bounce::passes {
 namespace {
 
-gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind) {
+bool depth_only(DrawKind kind) {
+    switch (kind) {
+        case DrawKind::depth:
+        case DrawKind::solid_depth:
+        case DrawKind::hashed_depth:
+        case DrawKind::blended_depth:
+        case DrawKind::seen_depth:
+        case DrawKind::peeled_depth:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// Of what a camera sees: with depth clamped it would see through its own near plane.
+bool seen_by_camera(DrawKind kind) {
+    return kind == DrawKind::surface || kind == DrawKind::surface_with_emission ||
+           kind == DrawKind::seen_depth || kind == DrawKind::peeled_surface ||
+           kind == DrawKind::peeled_surface_with_emission || kind == DrawKind::peeled_depth;
+}
+
+bool has_emission(DrawKind kind) {
+    return kind == DrawKind::surface_with_emission || kind == DrawKind::peeled_surface_with_emission;
+}
+
+int blend_rule(DrawKind kind, bool blends) {
+    switch (kind) {
+        case DrawKind::peeled_surface:
+        case DrawKind::peeled_surface_with_emission:
+        case DrawKind::peeled_depth:
+            return BLEND_PEEL;
+        case DrawKind::hashed_depth:
+        case DrawKind::blended_depth:
+        case DrawKind::light_surface:
+        case DrawKind::plane:
+            return BLEND_HASHED;
+        case DrawKind::solid_depth:
+            return BLEND_SOLID;
+        case DrawKind::depth:
+            return BLEND_HALF;
+        default:
+            return blends ? BLEND_SOLID : BLEND_HALF;
+    }
+}
+
+// Whether any of the batch can pass the kind's rule.
+bool is_drawn(const gpu::DrawFeatures& features, DrawKind kind, bool blends) {
+    const int rule = blend_rule(kind, blends);
+    if (rule == BLEND_PEEL || kind == DrawKind::blended_depth) {
+        return features.blend;
+    }
+    return rule != BLEND_SOLID || features.solid;
+}
+
+gl::Defines batch_defines(const gpu::DrawFeatures& features, DrawKind kind, bool blends, bool from_blender) {
     gl::Defines defines;
     const auto define_if = [&](bool condition, const char* name) {
         if (condition) {
             defines[name] = "1";
         }
     };
-    const bool depth = kind == DrawKind::depth || kind == DrawKind::seen_depth;
+    const bool depth = depth_only(kind);
     define_if(features.alpha_test, "ALPHA_TEST");
     define_if(depth, "DEPTH_ONLY");
     if (depth && !features.alpha_test) {
         return defines;
     }
+    if (features.blend) {
+        defines["BLEND_RULE"] = std::to_string(blend_rule(kind, blends));
+    }
     define_if(features.base_color_texture, "BASE_COLOR_TEXTURE");
+    define_if(features.base_color_encoded, "BASE_COLOR_ENCODED");
     define_if(features.vertex_color, "VERTEX_COLOR");
     if (depth) {
         return defines;
     }
     define_if(features.metallic_roughness_texture, "METALLIC_ROUGHNESS_TEXTURE");
+    define_if(features.metallic_roughness_encoded, "METALLIC_ROUGHNESS_ENCODED");
     define_if(features.normal_texture, "NORMAL_TEXTURE");
-    define_if(kind == DrawKind::surface_with_emission && features.emission, "EMISSION");
-    define_if(kind == DrawKind::surface_with_emission && features.emission_texture, "EMISSION_TEXTURE");
-    define_if(kind == DrawKind::surface_with_emission, "WRITE_EMISSION");
+    define_if(features.normal_encoded, "NORMAL_ENCODED");
+    define_if(features.normal_texture && from_blender && seen_by_camera(kind), "VALID_REFLECTIONS");
+    define_if(has_emission(kind) && features.emission, "EMISSION");
+    define_if(has_emission(kind) && features.emission_texture, "EMISSION_TEXTURE");
+    define_if(has_emission(kind) && features.emission_encoded, "EMISSION_ENCODED");
+    define_if(has_emission(kind), "WRITE_EMISSION");
+    define_if(blend_rule(kind, blends) == BLEND_PEEL, "WRITE_ALPHA");
     define_if(kind == DrawKind::light_surface, "LIGHT_VIEW");
     return defines;
 }
@@ -60,15 +123,19 @@ void draw_batches(const PassContext& context, const View* view, bool mirrored, D
     context.scene.bind();
     glEnable(GL_DEPTH_TEST);
     // A light inside its own near plane must not see through what stands there.
-    if (kind == DrawKind::depth || kind == DrawKind::light_surface || kind == DrawKind::plane) {
+    if (!seen_by_camera(kind)) {
         glEnable(GL_DEPTH_CLAMP);
     }
     for (const gpu::DrawBatch& batch : context.scene.batches()) {
+        if (!is_drawn(batch.features, kind, context.blends)) {
+            continue;
+        }
         const std::vector<Run> runs = seen_draws(context.scene, batch, view);
         if (runs.empty()) {
             continue;
         }
-        gl::Defines all = batch_defines(batch.features, kind);
+        gl::Defines all =
+            batch_defines(batch.features, kind, context.blends, context.scene.source().from_blender);
         all.insert(defines.begin(), defines.end());
         if (batch.draw_count == 1) {
             all["SINGLE_DRAW"] = "1";

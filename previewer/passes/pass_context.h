@@ -30,6 +30,7 @@ struct SoftMaps {
     int layers = 0;                               // of all maps
     std::vector<Face> faces;                      // those that are drawn
     std::vector<gpu::UniformArena::Slot> chunks;  // ShadowViews
+    bool blended_only = false;                    // the light has a hard shadow of all else
     [[nodiscard]] bool empty() const { return chunks.empty(); }
 };
 
@@ -63,6 +64,7 @@ struct PassContext {
     gpu::UniformArena::Slot frame;  // FrameUniforms
     int width = 0;
     int height = 0;
+    bool blends = false;  // blended surfaces have layers of their own; else they are cut out at one half
 };
 
 // MAP_KIND and PROFILE of a light, compiled in.
@@ -70,7 +72,23 @@ struct PassContext {
 
 // Draws the scene into the bound framebuffer, what the view may see of it. Programs are chosen by each
 // batch's features; depth_only batches take their fragment shader only where an alpha test needs it.
-enum class DrawKind { surface, surface_with_emission, light_surface, plane, depth, seen_depth };
+enum class DrawKind {
+    surface,
+    surface_with_emission,
+    seen_depth,
+    // Of blended surfaces what lies behind a depth and before another (BLEND_PEEL).
+    peeled_surface,
+    peeled_surface_with_emission,
+    peeled_depth,
+    // As lights see it. Of blended surfaces a part of the texels, but where `depth` cuts them out at one half
+    // and solid_depth leaves them out.
+    light_surface,
+    plane,
+    depth,
+    solid_depth,
+    hashed_depth,
+    blended_depth,  // nothing but these
+};
 void draw_scene(const PassContext& context, const View& view, DrawKind kind, const std::string& fragment,
                 const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 // All of the scene, with ViewUniforms that the caller has bound.

@@ -10,14 +10,15 @@ TextureHandle add_shadow_map(FrameGraph& graph, const PassContext& context, cons
                                                     .width = light.shadow_size,
                                                     .height = light.shadow_size,
                                                     .layers = static_cast<int>(light.faces.size())});
-        return [context, light, map](const PassResources& resources) {
+        const DrawKind kind = light.soft.blended_only ? DrawKind::solid_depth : DrawKind::depth;
+        return [context, light, map, kind](const PassResources& resources) {
             const float far_depth = 0.0F;
             for (size_t face = 0; face < light.faces.size(); ++face) {
                 const gl::Framebuffer& target =
                     resources.framebuffer({}, {&resources.texture(map), static_cast<int>(face)});
                 target.bind();
                 glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
-                draw_scene(context, light.faces[face], DrawKind::depth, "passes/shadow_map.frag", {});
+                draw_scene(context, light.faces[face], kind, "passes/shadow_map.frag", {});
             }
         };
     });

@@ -11,28 +11,6 @@ int tiles_along(int pixels) {
     return (pixels + GROUP_2D - 1) / GROUP_2D;
 }
 
-TextureHandle add_maps(FrameGraph& graph, const PassContext& context, const LightPass& light) {
-    TextureHandle maps;
-    graph.add_pass("soft shadow maps: " + light.name, [&](PassBuilder& builder) {
-        const SoftMaps& soft = light.soft;
-        maps = builder.create_texture("soft shadow maps", {.format = GL_DEPTH_COMPONENT32F,
-                                                           .width = soft.size,
-                                                           .height = soft.size,
-                                                           .layers = soft.layers});
-        return [context, soft, maps](const PassResources& resources) {
-            const float far_depth = 0.0F;
-            for (const SoftMaps::Face& face : soft.faces) {
-                const gl::Framebuffer& target =
-                    resources.framebuffer({}, {&resources.texture(maps), face.layer});
-                target.bind();
-                glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
-                draw_scene(context, face.view, DrawKind::depth, "passes/shadow_map.frag", {});
-            }
-        };
-    });
-    return maps;
-}
-
 gl::Defines soft_defines(const LightPass& light) {
     gl::Defines defines = light_defines(light);
     defines["SOFT_KIND"] = std::to_string(light.soft.map_kind);
@@ -143,9 +121,31 @@ TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const 
 
 }  // namespace
 
+TextureHandle add_soft_maps(FrameGraph& graph, const PassContext& context, const LightPass& light) {
+    TextureHandle maps;
+    graph.add_pass("soft shadow maps: " + light.name, [&](PassBuilder& builder) {
+        const SoftMaps& soft = light.soft;
+        maps = builder.create_texture("soft shadow maps", {.format = GL_DEPTH_COMPONENT32F,
+                                                           .width = soft.size,
+                                                           .height = soft.size,
+                                                           .layers = soft.layers});
+        const DrawKind kind = soft.blended_only ? DrawKind::blended_depth : DrawKind::hashed_depth;
+        return [context, soft, maps, kind](const PassResources& resources) {
+            const float far_depth = 0.0F;
+            for (const SoftMaps::Face& face : soft.faces) {
+                const gl::Framebuffer& target =
+                    resources.framebuffer({}, {&resources.texture(maps), face.layer});
+                target.bind();
+                glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
+                draw_scene(context, face.view, kind, "passes/shadow_map.frag", {});
+            }
+        };
+    });
+    return maps;
+}
+
 SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                           const LightPass& light) {
-    const TextureHandle maps = add_maps(graph, context, light);
+                           const LightPass& light, TextureHandle maps) {
     SoftShadow out;
     out.flags = add_probe(graph, context, gbuffer, light, maps);
     const Tiles tiles = add_tiles(graph, context, light, out.flags);

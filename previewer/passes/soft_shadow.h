@@ -12,9 +12,13 @@ struct SoftShadow {
     BufferHandle flags;  // a tile: 1 lit, 2 in full shadow, 3 penumbra, 0 nothing to be lit
 };
 
-// From maps of light.soft, which must not be empty. Only tiles of 8 x 8 pixels whose maps do not all agree
+// The maps of light.soft, which must not be empty: a layer each, or six of a cube.
+[[nodiscard]] TextureHandle add_soft_maps(FrameGraph& graph, const PassContext& context,
+                                          const LightPass& light);
+
+// What a G-buffer's surfaces see of the light. Only tiles of 8 x 8 pixels whose maps do not all agree
 // ask every map.
 [[nodiscard]] SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context,
-                                         const GBuffer& gbuffer, const LightPass& light);
+                                         const GBuffer& gbuffer, const LightPass& light, TextureHandle maps);
 
 }  // namespace bounce::passes

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "renderer/penumbra.h"
+#include "scene/transparency.h"
 
 namespace bounce {
 namespace {
@@ -102,6 +103,8 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
         }
         plan.soft.push_back(plan.shadows.back() &&
                             throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
+        plan.veiled.push_back(plan.blends && plan.shadows.back() && !plan.soft.back() &&
+                              settings.direct_shadows == DirectShadows::vpl);
         if (light.type == scene::LightType::area && plan.indirect) {
             plan.approximations.push_back(
                 fmt::format("area light {}: its bounce is taken from its centre", light.name));
@@ -134,7 +137,6 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
                     FramePlan& plan) {
     // Lights with glossy lobes carry what metals reflect, too.
     const bool glossy = settings.technique == Technique::ism && settings.glossy_bounces;
-    bool blend = false;
     bool emitters = false;
     bool reflects = false;
     bool receives = draws_default_material(scene, pose);
@@ -144,7 +146,6 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
         emitters |= shines;
         plan.emission |= shines || material.unlit;  // an unlit surface shows its colour as if it emitted it
         plan.narrow_lobes |= glossy && has_narrow_lobe(material);
-        blend |= material.alpha_mode == scene::AlphaMode::blend;
         holes |= material.alpha_mode != scene::AlphaMode::opaque;
         receives |= !material.unlit && (!is_dark(glm::vec3(material.base_color)) || material.specular > 0.0F);
         // Where a texture says what is metal, the factor 1 is only glTF's default.
@@ -165,9 +166,6 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     plan.close_world = !holes;
     if (disks && holes) {
         plan.left_out.push_back({"ism close", "a material has holes, which closing would fill"});
-    }
-    if (blend) {
-        plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
     }
     plan.emitters = emitters;
     plan.receives = receives;
@@ -196,6 +194,28 @@ void plan_emitters(const Settings& settings, bool whole, FramePlan& plan) {
     plan.emitters_occluded = !ism || settings.visibility != Visibility::none;
 }
 
+void plan_transparency(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
+                       FramePlan& plan) {
+    const bool any = scene::draws_blended(scene, pose);
+    plan.blends = any && settings.transparent_layers > 0;
+    const bool shown =
+        shows_light(settings.show) && settings.show != Show::unblurred && settings.show != Show::removed;
+    plan.blend_layers =
+        plan.blends && (shown || settings.show == Show::vpls) ? settings.transparent_layers : 0;
+    if (plan.blend_layers == 0) {
+        plan.left_out.push_back({"transparent layers", !any ? "no visible surface is blended"
+                                                       : !plan.blends
+                                                           ? "blended surfaces were asked for as cut-outs"
+                                                           : "the layer shows solid surfaces alone"});
+    }
+    if (any && !plan.blends) {
+        plan.approximations.emplace_back("blended transparency is drawn as a cut-out at one half");
+    } else if (any && settings.direct_shadows == DirectShadows::hard) {
+        plan.approximations.emplace_back(
+            "blended surfaces throw the shadows of cut-outs at one half: hard shadows were asked for");
+    }
+}
+
 }  // namespace
 
 FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
@@ -218,6 +238,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         plan.left_out.push_back({"light", "the layer shows motion alone"});
         return plan;
     }
+    plan_transparency(scene, pose, settings, plan);
     plan_lights(pose, settings, sight, plan);
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, settings, plan);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "passes/antialias.h"
 #include "passes/classic_maps.h"
 #include "passes/composite.h"
@@ -13,6 +15,7 @@
 #include "passes/ism.h"
 #include "passes/layer_view.h"
 #include "passes/near_field.h"
+#include "passes/peel.h"
 #include "passes/point_update.h"
 #include "passes/rsm.h"
 #include "passes/rsm_gather.h"
@@ -36,6 +39,22 @@ passes::Layer layer_of(Show show) {
         default:
             return passes::Layer::rsm_depth;
     }
+}
+
+// What each light's shadows are looked up in; parallel to PipelineInputs::lights, invalid where there is
+// none.
+struct ShadowMaps {
+    TextureHandle hard;
+    TextureHandle soft;
+};
+
+// One light on a G-buffer's surfaces, added to `sum`.
+TextureHandle add_light_of(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                           const passes::LightPass& light, const ShadowMaps& maps, TextureHandle sum) {
+    using namespace passes;
+    const SoftShadow penumbra =
+        maps.soft.valid() ? add_soft_shadow(graph, in.context, gbuffer, light, maps.soft) : SoftShadow{};
+    return add_direct_light(graph, in.context, gbuffer, light, maps.hard, penumbra, sum);
 }
 
 void count_gathered_pixels(FrameGraph& graph, BufferHandle counts, int* result) {
@@ -231,6 +250,106 @@ FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
     return {blur(bounced), blur(light.lobes)};
 }
 
+// What lights a G-buffer's surfaces, as the composite takes it; invalid where there is none.
+struct Light {
+    TextureHandle direct;
+    TextureHandle irradiance;
+    TextureHandle bounced;
+    TextureHandle lobes;     // GatheredLight::lobes
+    TextureHandle radiance;  // as it leaves the surfaces
+};
+
+passes::CompositeInputs composite_inputs(const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                                         const Light& light) {
+    const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
+    return {.gbuffer = gbuffer,
+            .direct = light.direct,
+            .irradiance = light.irradiance,
+            .bounced = light.bounced,
+            .lobes = light.lobes,
+            .image = in.image,
+            .radiance = light.radiance,
+            .world_light = in.plan.world_light && !in.plan.world_occluded,
+            .emission = in.plan.emission && whole};
+}
+
+// What was made for the solid surfaces and serves the blended ones as well.
+struct Shared {
+    passes::GBuffer solid;
+    std::vector<ShadowMaps> shadows;
+    passes::GatherInputs gather;
+    std::vector<passes::VplSource> sources;
+    BouncedLights lit;
+    Emitted emitted;
+    passes::DepthSamples samples;  // where outlines are smoothed
+};
+
+// All light on a layer's surfaces, as on the solid ones in build_pipeline().
+Light add_layer_light(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
+                      const passes::GBuffer& gbuffer) {
+    using namespace passes;
+    Light out;
+    for (size_t i = 0; in.plan.direct && i < in.lights.size(); ++i) {
+        out.direct = add_light_of(graph, in, gbuffer, in.lights[i], shared.shadows[i], out.direct);
+    }
+    if (!shared.lit.sets.empty() || !shared.emitted.sets().empty()) {
+        const FilteredLight light =
+            add_bounced_light(graph, in, gbuffer, shared.sources, shared.lit, shared.emitted);
+        out.bounced = light.bounced;
+        out.lobes = light.lobes;
+    }
+    if (in.plan.indirect && !in.plan.vpls) {
+        GatherInputs gather = shared.gather;
+        gather.gbuffer = gbuffer;
+        out.irradiance =
+            in.plan.interpolate
+                ? add_rsm_gather_interpolated(graph, in.context, gather, in.settings.lowres_step).irradiance
+                : add_rsm_gather(graph, in.context, gather);
+    }
+    return out;
+}
+
+// Blended surfaces over the picture of the solid ones: peeled off from the front, shaded one layer after the
+// other as those are, laid over from the back. What a layer takes is not run where no surface is in it.
+TextureHandle add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
+                          TextureHandle picture) {
+    using namespace passes;
+    std::vector<PeeledLayer> layers;
+    for (int number = 1; number <= in.plan.blend_layers; ++number) {
+        if (!layers.empty()) {
+            graph.set_condition([any = layers.back().any] { return *any; });
+        }
+        layers.push_back(add_peeled_layer(graph, in.context, in.camera, shared.solid,
+                                          layers.empty() ? TextureHandle{} : layers.back().gbuffer.depth,
+                                          number));
+    }
+    graph.set_condition([any = layers.back().any] { return *any; });
+    if (in.unpeeled_pixels != nullptr) {
+        count_unpeeled(graph, in.context, in.camera, shared.solid, layers.back().gbuffer, in.unpeeled_pixels);
+    }
+    std::vector<DepthSamples> samples(layers.size());
+    for (size_t i = 0; in.plan.antialias && i < layers.size(); ++i) {
+        graph.set_condition([any = layers[i].any] { return *any; });
+        samples[i] = add_peeled_samples(graph, in.context, in.camera, shared.samples,
+                                        i == 0 ? TextureHandle{} : samples[i - 1].depth,
+                                        fmt::format("layer {}", i + 1));
+    }
+    for (size_t i = layers.size(); i-- > 0;) {
+        graph.set_condition([any = layers[i].any] { return *any; });
+        const GBuffer& gbuffer = layers[i].gbuffer;
+        CompositeInputs inputs = composite_inputs(in, gbuffer, add_layer_light(graph, in, shared, gbuffer));
+        inputs.layer = true;
+        TextureHandle layer = add_composite(graph, in.context, inputs, {});
+        if (in.plan.antialias) {
+            layer = add_antialias(graph, in.context, gbuffer, samples[i], layer, {},
+                                  fmt::format("layer {}", i + 1));
+        }
+        picture = add_over(graph, in.context, layer, picture, static_cast<int>(i) + 1);
+    }
+    graph.set_condition(nullptr);
+    return picture;
+}
+
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
 // bounce's light near its sources from the reflective shadow maps.
 TextureHandle add_removed(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
@@ -318,15 +437,15 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     const GBuffer lit_surfaces = in.plan.hybrid ? add_simplified_gbuffer(graph, context, in.camera) : gbuffer;
 
     TextureHandle direct;
+    std::vector<ShadowMaps> shadows(in.lights.size());
     GatherInputs gather{.gbuffer = gbuffer, .sources = {}, .full_sum = in.settings.rsm_full_sum};
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
-            const bool soft = !light.soft.empty();
-            const TextureHandle shadow =
-                in.plan.shadows[i] && !soft ? add_shadow_map(graph, context, light) : TextureHandle{};
-            const SoftShadow penumbra = soft ? add_soft_shadow(graph, context, gbuffer, light) : SoftShadow{};
-            direct = add_direct_light(graph, context, gbuffer, light, shadow, penumbra, direct);
+            const bool hard = in.plan.shadows[i] && (light.soft.empty() || light.soft.blended_only);
+            shadows[i].hard = hard ? add_shadow_map(graph, context, light) : TextureHandle{};
+            shadows[i].soft = !light.soft.empty() ? add_soft_maps(graph, context, light) : TextureHandle{};
+            direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }
         if (in.plan.indirect) {
             gather.sources.push_back(
@@ -347,6 +466,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     const ScenePoints scene =
         in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
     Emitted emitted;
+    std::vector<VplSource> sources;
     if (in.plan.world_occluded) {
         emitted.world = add_world(graph, in, scene);
     }
@@ -355,7 +475,6 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
     const bool lights_bounce = in.plan.vpls || in.plan.world_bounces > 0 || in.plan.emitter_bounces > 0;
     if (lights_bounce) {
-        std::vector<VplSource> sources;
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
@@ -406,20 +525,17 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         reflected = add_reflected(graph, context, lit_surfaces, bounced);
         bounced = {};
     }
-    const bool whole = in.settings.show == Show::shaded || in.settings.show == Show::vpls;
-    TextureHandle picture = add_composite(graph, context,
-                                          {.gbuffer = gbuffer,
-                                           .direct = direct,
-                                           .irradiance = irradiance,
-                                           .bounced = bounced,
-                                           .lobes = lobes,
-                                           .image = in.image,
-                                           .radiance = reflected,
-                                           .world_light = in.plan.world_light && !in.plan.world_occluded,
-                                           .emission = in.plan.emission && whole},
-                                          in.plan.antialias ? TextureHandle{} : in.target);
+    const TextureHandle shaded = add_composite(
+        graph, context, composite_inputs(in, gbuffer, {direct, irradiance, bounced, lobes, reflected}),
+        in.plan.antialias ? TextureHandle{} : in.target);
+    TextureHandle picture = shaded;
+    DepthSamples samples;
     if (in.plan.antialias) {
-        picture = add_antialias(graph, context, gbuffer, in.camera, picture, in.target);
+        samples = add_depth_samples(graph, context, in.camera);
+        picture = add_antialias(graph, context, gbuffer, samples, shaded, in.target);
+    }
+    if (in.plan.blend_layers > 0) {
+        picture = add_blended(graph, in, {gbuffer, shadows, gather, sources, lit, emitted, samples}, picture);
     }
     if (in.settings.show == Show::vpls && !lit.sets.empty()) {
         add_all_dots(graph, in, gbuffer, lit, picture);

@@ -45,8 +45,9 @@ struct PipelineInputs {
     int* gathered_pixels = nullptr;
     passes::RemovedLight* removed = nullptr;
     float* reflected_flux =
-        nullptr;                    // of all reflective shadow maps, in no particular unit; 0: nothing is lit
-    bool* anything_seen = nullptr;  // whether the camera sees a surface
+        nullptr;  // of all reflective shadow maps, in no particular unit; 0: nothing is lit
+    int* unpeeled_pixels = nullptr;  // that show more blended surfaces than there are layers
+    bool* anything_seen = nullptr;   // whether the camera sees a surface
 };
 
 // Wires the passes of one frame. The only place that does: reading it top to bottom is reading the frame.

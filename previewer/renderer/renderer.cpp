@@ -132,14 +132,20 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
                         camera.render_from_clip);
 }
 
-template <typename MakeView>
-passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, MakeView&& make_view) {
+passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) {
     passes::SoftMaps out;
     out.map_kind = setup.map_kind;
     out.size = setup.size;
     out.layers = setup.layers;
     for (const SoftFace& face : setup.faces) {
-        out.faces.push_back({face.layer, make_view(face.view.clip_from_render, face.view.mirrored)});
+        // ViewUniforms::eye.w
+        const auto places = static_cast<int>(setup.views.size());
+        const int numbers = face.layer * places / setup.layers + 4096 * places;
+        const glm::mat4& clip = face.view.clip_from_render;
+        out.faces.push_back(
+            {face.layer,
+             {uniforms.add(gpu::ViewUniforms{clip, glm::vec4(0.0F, 0.0F, 0.0F, static_cast<float>(numbers))}),
+              clip, face.view.mirrored}});
     }
     for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
         gpu::ShadowViews chunk{};
@@ -394,7 +400,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     const bool mirrored = glm::determinant(glm::dmat3(view.world_from_camera)) < 0.0;
     const passes::View camera_view = make_view(glm::mat4(camera.clip_from_render), mirrored);
 
-    const bool any_soft = std::find(plan.soft.begin(), plan.soft.end(), true) != plan.soft.end();
+    const auto any_of = [](const std::vector<bool>& flags) {
+        return std::find(flags.begin(), flags.end(), true) != flags.end();
+    };
+    const bool any_soft = any_of(plan.soft) || any_of(plan.veiled);
     const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<double> fluxes;
@@ -417,12 +426,13 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         pass.flux_w = setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
-        if (plan.soft[i]) {
+        if (plan.soft[i] || plan.veiled[i]) {
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
                                    gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
                                    settings.shadow_samples, settings.soft_shadow_size),
-                uniforms_, make_view);
+                uniforms_);
+            pass.soft.blended_only = plan.veiled[i];
         }
         lights.push_back(pass);
         fluxes.push_back(setup.flux_w);
@@ -460,6 +470,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     report.notes = plan.notes;
     float reflected_flux = -1.0F;
     bool anything_seen = true;
+    int unpeeled_pixels = 0;
     if (settings.measure_removed && (plan.vpls || plan.emitter_bounces > 0)) {
         report.removed.emplace();
     }
@@ -472,39 +483,50 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);
-    build_pipeline(graph,
-                   {.plan = plan,
-                    .settings = settings,
-                    .context = {.programs = programs_,
-                                .scene = gpu_scene_,
-                                .uniforms = uniforms_,
-                                .frame = frame,
-                                .width = settings.width,
-                                .height = settings.height},
-                    .camera = camera_view,
-                    .lights = lights,
-                    .gather_frames = gather_frames,
-                    .patterns = patterns,
-                    .points = points_needed(plan, settings) ? points_.get() : nullptr,
-                    .bounces = bounces.bounces,
-                    .world = bounces.world,
-                    .world_lights = &world_lights_,
-                    .image = image,
-                    .world_bounces = bounces.world_bounces,
-                    .emitter_store = emitters_.get(),
-                    .emitters = bounces.emitters,
-                    .emitter_bounces = bounces.emitter_bounces,
-                    .triangles_inside = bounces.triangles,
-                    .previous = previous_frame,
-                    .target = graph.import_texture("color", color_),
-                    .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
-                    .removed = report.removed ? &*report.removed : nullptr,
-                    .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
-                    .anything_seen = settings.find_unlit ? &anything_seen : nullptr});
+    build_pipeline(
+        graph, {.plan = plan,
+                .settings = settings,
+                .context = {.programs = programs_,
+                            .scene = gpu_scene_,
+                            .uniforms = uniforms_,
+                            .frame = frame,
+                            .width = settings.width,
+                            .height = settings.height,
+                            .blends = plan.blends},
+                .camera = camera_view,
+                .lights = lights,
+                .gather_frames = gather_frames,
+                .patterns = patterns,
+                .points = points_needed(plan, settings) ? points_.get() : nullptr,
+                .bounces = bounces.bounces,
+                .world = bounces.world,
+                .world_lights = &world_lights_,
+                .image = image,
+                .world_bounces = bounces.world_bounces,
+                .emitter_store = emitters_.get(),
+                .emitters = bounces.emitters,
+                .emitter_bounces = bounces.emitter_bounces,
+                .triangles_inside = bounces.triangles,
+                .previous = previous_frame,
+                .target = graph.import_texture("color", color_),
+                .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
+                .removed = report.removed ? &*report.removed : nullptr,
+                .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
+                .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
+                .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
     graph.execute(timer);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    for (const std::string& pass : graph.skipped()) {
+        report.left_out.push_back({pass, "no blended surface is in its layer"});
+    }
+    if (unpeeled_pixels > 0) {
+        report.approximations.push_back(
+            fmt::format("{} pixels show more than {} blended surfaces; those behind are left out "
+                        "(--transparent-layers)",
+                        unpeeled_pixels, plan.blend_layers));
     }
     if (reflected_flux == 0.0F) {
         const std::string reason = "no light reaches a surface that reflects it";

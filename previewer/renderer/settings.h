@@ -130,6 +130,8 @@ struct Settings {
     // Frames whose mean the picture is (render_samples()); more than one filter outlines themselves, so
     // antialias is off. A frame of several smooths the outlines of shadows over its part of a pixel alone.
     int samples = 1;
+    // Blended surfaces that a pixel shows at most, from the camera on; 0: they are cut out at one half.
+    int transparent_layers = 4;
     int shadow_size = 2048;  // a cube's faces have half of it
     DirectShadows direct_shadows = DirectShadows::vpl;
     int shadow_samples = 64;     // places on a light, a power of two

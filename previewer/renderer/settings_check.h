@@ -20,8 +20,9 @@ constexpr int k_most_triangle_map_size = 1024;  // as in Table I of Lv et al. 20
 constexpr int k_most_bounces = 4;
 constexpr int k_most_rsm_samples = 1 << 15;  // llvmpipe ends a loop after 65,535 iterations
 constexpr int k_most_samples = 4096;
-constexpr int k_least_shadow_samples = 8;   // SHADOW_VIEW_CHUNK
-constexpr int k_most_shadow_samples = 256;  // six layers each of the 2,048 that OpenGL 4.5 promises
+constexpr int k_most_transparent_layers = 16;  // each costs a picture
+constexpr int k_least_shadow_samples = 8;      // SHADOW_VIEW_CHUNK
+constexpr int k_most_shadow_samples = 256;     // six layers each of the 2,048 that OpenGL 4.5 promises
 constexpr int k_least_map_size = 2;
 constexpr int k_most_map_size = 16384;
 

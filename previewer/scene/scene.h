@@ -84,6 +84,7 @@ struct Image {
     int height = 0;
     std::vector<uint8_t> rgba8;
     std::vector<uint16_t> rgba16;
+    bool opaque = false;  // known to have no alpha below 1
 };
 
 enum class Wrap { repeat, clamp_to_edge, mirrored_repeat };
@@ -102,12 +103,21 @@ struct Texture {
     Sampler sampler;
 };
 
+// How a texture's numbers stand for its values: as glTF has it for each use (sRGB for colours, linear for
+// data), or as the file's BOUNCE_scene says.
+enum class Encoding { by_use, linear, srgb };
+
 // uv' = uv_transform * (u, v, 1), KHR_texture_transform applied.
 struct TextureRef {
     int texture = k_none;
     int uv_set = 0;
     glm::mat3 uv_transform{1.0F};
+    Encoding encoding = Encoding::by_use;
     [[nodiscard]] bool present() const { return texture != k_none; }
+    // color: of a texture that is used as one.
+    [[nodiscard]] bool is_srgb(bool color) const {
+        return encoding == Encoding::srgb || (encoding == Encoding::by_use && color);
+    }
 };
 
 enum class AlphaMode { opaque, mask, blend };

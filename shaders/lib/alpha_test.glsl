@@ -5,8 +5,7 @@
 #define LIB_ALPHA_TEST
 
 #ifdef ALPHA_TEST
-#include "shared/bindings.h"
-#include "shared/types.h"
+#include "lib/alpha_cut.glsl"
 
 layout(std430, binding = SSBO_MATERIALS) readonly buffer MaterialBlock {
     GpuMaterial materials[];
@@ -29,7 +28,7 @@ void alpha_test() {
 #ifdef VERTEX_COLOR
     alpha *= in_color.a;
 #endif
-    if (alpha < m.emission.a) {
+    if (is_cut(m, alpha)) {
         discard;
     }
 }

@@ -3,7 +3,8 @@
 // The G-buffer's layout.
 //   0  RGBA16F  base colour, roughness
 //   1  RGBA16   octahedral normal, metallic, specular and diffuse model
-//   2  RG16     octahedral normal of the triangle itself, for what depends on true geometry
+//   2  RG16     octahedral normal of the triangle itself, for what depends on true geometry; of a layer of blended
+//               surfaces RGBA16, z: alpha, 0 where there is none
 //   3  RGBA32F  emission (only where the scene has any)
 //   depth       32-bit float, 1 near, 0 far; 0 where nothing was drawn
 #ifndef LIB_GBUFFER

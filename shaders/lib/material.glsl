@@ -5,6 +5,9 @@
 #define LIB_MATERIAL
 
 #include "lib/brdf.glsl"
+#ifdef ALPHA_TEST
+#include "lib/alpha_cut.glsl"
+#endif
 #include "shared/bindings.h"
 #include "shared/types.h"
 
@@ -44,10 +47,19 @@ layout(location = 6) in vec4 in_uv_normal_emission;
 layout(location = 4) in vec4 in_color;
 #endif
 
+// IEC 61966-2-1.
+vec3 linear_from_srgb(vec3 c) {
+    return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}
+
 vec4 material_base_color(GpuMaterial m) {
     vec4 color = m.base_color;
 #ifdef BASE_COLOR_TEXTURE
-    color *= texture(base_color_texture, in_uv_base_mr.xy);
+    vec4 texel = texture(base_color_texture, in_uv_base_mr.xy);
+#ifdef BASE_COLOR_ENCODED
+    texel.rgb = linear_from_srgb(texel.rgb);
+#endif
+    color *= texel;
 #endif
 #ifdef VERTEX_COLOR
     color *= in_color;
@@ -56,11 +68,12 @@ vec4 material_base_color(GpuMaterial m) {
 }
 
 // Fills all but the position. Discards what an alpha test cuts away.
-Surface material_surface(out vec3 emission) {
+Surface material_surface(out vec3 emission, out float alpha) {
     GpuMaterial m = materials[in_material];
     vec4 base_color = material_base_color(m);
+    alpha = base_color.a;
 #ifdef ALPHA_TEST
-    if (base_color.a < m.emission.a) {
+    if (is_cut(m, base_color.a)) {
         discard;
     }
 #endif
@@ -73,13 +86,25 @@ Surface material_surface(out vec3 emission) {
     s.disney = m.flags.x == DIFFUSE_DISNEY;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
     vec4 mr = texture(metallic_roughness_texture, in_uv_base_mr.zw);
+#ifdef METALLIC_ROUGHNESS_ENCODED
+    mr.rgb = linear_from_srgb(mr.rgb);
+#endif
     s.roughness *= mr.g;
     s.metallic *= mr.b;
 #endif
     vec3 normal = safe_normalize(in_normal, vec3(0.0, 0.0, 1.0));
 #ifdef NORMAL_TEXTURE
-    vec3 tangent_normal = texture(normal_texture, in_uv_normal_emission.xy).xyz * 2.0 - 1.0;
-    tangent_normal.xy *= m.surface.w;
+    vec3 encoded_normal = texture(normal_texture, in_uv_normal_emission.xy).xyz;
+#ifdef NORMAL_ENCODED
+    encoded_normal = linear_from_srgb(encoded_normal);
+#endif
+    vec3 tangent_normal = encoded_normal * 2.0 - 1.0;
+    if (m.flags.z == 1) {
+        // Cycles goes from the surface's normal to the map's, and beyond where the strength is above 1.
+        tangent_normal = mix(vec3(0.0, 0.0, 1.0), safe_normalize(tangent_normal, vec3(0.0, 0.0, 1.0)), m.surface.w);
+    } else {
+        tangent_normal.xy *= m.surface.w;
+    }
     vec3 bitangent = cross(normal, in_tangent.xyz) * in_tangent.w;
     normal = safe_normalize(
         in_tangent.xyz * tangent_normal.x + bitangent * tangent_normal.y + normal * tangent_normal.z, normal);
@@ -89,7 +114,11 @@ Surface material_surface(out vec3 emission) {
 #ifdef EMISSION
     emission = m.emission.rgb;
 #ifdef EMISSION_TEXTURE
-    emission *= texture(emission_texture, in_uv_normal_emission.zw).rgb;
+    vec3 glow = texture(emission_texture, in_uv_normal_emission.zw).rgb;
+#ifdef EMISSION_ENCODED
+    glow = linear_from_srgb(glow);
+#endif
+    emission *= glow;
 #endif
 #endif
     if (m.flags.y == 1) {  // unlit: shown as it is, reflects nothing, to the viewer and to other surfaces
@@ -99,6 +128,11 @@ Surface material_surface(out vec3 emission) {
         s.specular = 0.0;
     }
     return s;
+}
+
+Surface material_surface(out vec3 emission) {
+    float alpha;
+    return material_surface(emission, alpha);
 }
 
 #endif

@@ -5,6 +5,12 @@
 #include "lib/frame.glsl"
 #include "lib/sample_sources.glsl"
 
+#ifdef LAYER
+#define PICTURE vec4  // radiance times alpha, and alpha
+#else
+#define PICTURE vec3
+#endif
+
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(location = 0) uniform float weights[9 * AA_SAMPLES];  // of the samples of 3 x 3 pixels
 layout(binding = IMG_OUT, rgba32f) writeonly uniform image2D color_image;
@@ -25,19 +31,23 @@ void main() {
         sources[k] = imageLoad(sources_image, place).r;
         all_self = all_self && sources[k] == ALL_SELF;
     }
-    vec3 color = imageLoad(picture_image, pixel).rgb;
+    PICTURE color = PICTURE(imageLoad(picture_image, pixel));
     if (!all_self) {
-        color = vec3(0.0);
+        color = PICTURE(0.0);
         for (int k = 0; k < 9; ++k) {
             ivec2 place = clamp(pixel + source_offset(uint(k)), ivec2(0), last);
             for (int s = 0; s < AA_SAMPLES; ++s) {
                 float weight = weights[AA_SAMPLES * k + s];
                 if (weight > 0.0) {
                     ivec2 from = clamp(place + source_offset(source_of(sources[k], s)), ivec2(0), last);
-                    color += weight * imageLoad(picture_image, from).rgb;
+                    color += weight * PICTURE(imageLoad(picture_image, from));
                 }
             }
         }
     }
+#ifdef LAYER
+    imageStore(color_image, pixel, color);
+#else
     imageStore(color_image, pixel, vec4(color, 1.0));
+#endif
 }

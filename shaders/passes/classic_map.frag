@@ -2,6 +2,7 @@
 // The plane of the triangle that is seen: unit normal and distance from the eye along it, render units.
 #include "lib/ism.glsl"
 #include "lib/material.glsl"
+#include "lib/view.glsl"
 
 layout(location = 0) out vec4 out_plane;
 layout(location = 7) in vec3 in_position;
@@ -10,9 +11,6 @@ layout(location = 11) flat in float in_set_back;
 #else
 const float in_set_back = 0.0;
 #endif
-layout(std140, binding = UBO_VIEW) uniform ViewBlock {
-    ViewUniforms view;
-};
 
 void main() {
     // Before any discard, while the neighbours are still there.

@@ -28,7 +28,7 @@ void main() {
     views[index].view.clip_from_render =
         transpose(mat4(vec4(vpl.tangent.xyz, -dot(vpl.tangent.xyz, eye)), vec4(vpl.bitangent.xyz, -dot(vpl.bitangent.xyz, eye)),
                        vec4(vpl.normal.xyz, -dot(vpl.normal.xyz, eye)), vec4(0.0, 0.0, 0.0, 1.0)));
-    views[index].view.eye = vec4(eye, float(ism.atlas.x));
+    views[index].view.eye = vec4(eye, float(index & 4095));
 #else
     if (index >= ism.atlas.z * CLASSIC_FACES) {
         return;
@@ -46,6 +46,6 @@ void main() {
     views[index].view.clip_from_render =
         transpose(mat4(vec4(right, -dot(right, eye)), vec4(up, -dot(up, eye)), vec4(0.0, 0.0, 0.0, NEAR_PLANE),
                        vec4(forward, -dot(forward, eye))));
-    views[index].view.eye = vec4(eye, 0.0);
+    views[index].view.eye = vec4(eye, float(index & 4095));
 #endif
 }

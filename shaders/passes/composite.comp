@@ -78,6 +78,9 @@ layout(binding = TEX_RSM) uniform sampler2D radiance_texture;
 #ifdef EMISSION
 layout(binding = TEX_GBUFFER2) uniform sampler2D emission_texture;
 #endif
+#ifdef LAYER
+layout(binding = TEX_GEOMETRIC_NORMAL) uniform sampler2D layer_texture;  // z: alpha, 0 where no surface is
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -122,5 +125,10 @@ void main() {
         color += texelFetch(emission_texture, pixel, 0).rgb * frame.composite.y;
 #endif
     }
+#ifdef LAYER
+    float alpha = texelFetch(layer_texture, pixel, 0).z;
+    imageStore(color_image, pixel, alpha > 0.0 ? vec4(color * (exposure * alpha), alpha) : vec4(0.0));
+#else
     imageStore(color_image, pixel, vec4(color * exposure, 1.0));
+#endif
 }

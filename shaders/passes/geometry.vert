@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every raster pass over the scene: G-buffer, shadow map, RSM, motion.
-#include "shared/bindings.h"
-#include "shared/types.h"
+#include "lib/view.glsl"
 
 layout(location = ATTRIB_POSITION) in vec3 in_position;
 
-layout(std140, binding = UBO_VIEW) uniform ViewBlock {
-    ViewUniforms view;
-};
 #if !defined(SINGLE_DRAW) || defined(MOTION)
 layout(location = ATTRIB_DRAW) in uint in_draw;
 #endif
@@ -54,6 +50,14 @@ layout(location = ATTRIB_COLOR) in vec4 in_color;
 layout(location = 4) out vec4 out_color;
 #endif
 layout(location = 0) flat out uint out_material;
+#ifdef BLEND_RULE
+#if BLEND_RULE == BLEND_HASHED
+#define HASHED_ALPHA
+#endif
+#endif
+#ifdef HASHED_ALPHA
+layout(location = 8) flat out uint out_surface;
+#endif
 #ifdef LIGHT_VIEW
 #include "lib/light.glsl"
 layout(location = 5) out vec3 out_light_space;
@@ -96,9 +100,12 @@ void main() {
     gl_Position = view.clip_from_render * vec4(position, 1.0);
 #endif
 #ifdef SET_BACK
-    out_set_back = intBitsToFloat(draw.ids.z);
+    out_set_back = intBitsToFloat(draw.ids.w);
 #endif
     out_material = uint(draw.ids.x);
+#ifdef HASHED_ALPHA
+    out_surface = uint(draw.ids.z);
+#endif
 #ifndef DEPTH_ONLY
     out_normal = vec3(dot(draw.normal_from_model[0].xyz, in_normal), dot(draw.normal_from_model[1].xyz, in_normal),
                       dot(draw.normal_from_model[2].xyz, in_normal));

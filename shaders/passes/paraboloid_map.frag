@@ -3,6 +3,7 @@
 // plane of the triangle that covers it.
 #include "lib/ism.glsl"
 #include "lib/material.glsl"
+#include "lib/view.glsl"
 
 layout(location = 0) out uint out_bits;
 layout(location = 7) in vec3 in_position;
@@ -11,9 +12,6 @@ layout(location = 11) flat in float in_set_back;
 #else
 const float in_set_back = 0.0;
 #endif
-layout(std140, binding = UBO_VIEW) uniform ViewBlock {
-    ViewUniforms view;
-};
 
 void main() {
     // Before any discard, while the neighbours are still there. Positions are linear in the map, as it is drawn, so their
@@ -23,7 +21,7 @@ void main() {
     Surface s = material_surface(emission);  // cuts the holes
     vec3 normal = safe_normalize(across * 1e6, s.normal);
     float distance = dot(normal, in_position - view.eye.xyz);
-    float texel_size = 2.0 / view.eye.w;
+    float texel_size = 2.0 / float(ism.atlas.x);
     vec2 at = gl_FragCoord.xy * texel_size - 1.0;
     vec3 local = paraboloid_direction(at);
     mat3 map_from_render = mat3(view.clip_from_render);

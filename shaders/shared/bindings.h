@@ -63,6 +63,7 @@
 #define TEX_ENVIRONMENT_BRDF 12
 #define TEX_DEPTH_SAMPLES 8
 #define TEX_PREVIOUS_DEPTH 4
+#define TEX_PEELED_DEPTH 9
 
 // Image units.
 #define IMG_OUT 0

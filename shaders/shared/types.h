@@ -23,6 +23,15 @@
 // places, which every driver turns into scalar loads.
 #define SHADOW_VIEW_CHUNK 8
 
+// Blended materials (scene/transparency.h): below the first alpha there is nothing, from the second on it is opaque.
+#define ALPHA_NOTHING (1.0 / 512.0)
+#define ALPHA_SOLID (511.0 / 512.0)
+// What a pass draws of a blended material, BLEND_RULE.
+#define BLEND_HALF 0    // a cut-out at one half
+#define BLEND_SOLID 1   // where it is opaque
+#define BLEND_HASHED 2  // a part alpha of the texels (lib/alpha_threshold.glsl)
+#define BLEND_PEEL 3    // where it is neither nothing nor opaque, behind what was peeled off and before what is opaque
+
 #define DIFFUSE_LAMBERT 0
 #define DIFFUSE_DISNEY 1
 
@@ -48,7 +57,8 @@ struct WorldUniforms {
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
-    vec4 eye;  // xyz render space, where maps of planes tell distances from; paraboloids: texels a side
+    vec4 eye;  // xyz render space, where maps of planes tell distances from;
+               // w: of several views of one light its place + 4096 * places, of others any number below
 };
 
 // One light; each is a pass of its own, with its map and profile compiled in.
@@ -86,15 +96,15 @@ struct GpuMaterial {
     vec4 base_color;
     vec4 emission;  // rgb radiance, a: alpha cutoff
     vec4 surface;   // metallic, roughness, specular, normal scale
-    ivec4 flags;    // diffuse model, unlit, -, -
+    ivec4 flags;    // diffuse model, unlit, 1 where the normal scale is Cycles' strength, -
     vec4 uv[8];     // per texture two rows of uv_transform (xyz); the first row's w is the uv set
 };
 
 struct GpuDraw {
     vec4 render_from_model[3];  // rows
     vec4 normal_from_model[3];  // rows of the cofactor matrix (xyz)
-    ivec4 ids;  // material, 1 where the transform mirrors, how far its simplified surface moved
-                // (render units, float bits), -
+    ivec4 ids;  // material, 1 where the transform mirrors, a number that stays the draw's own, how far its
+                // simplified surface moved (render units, float bits)
 };
 
 // The camera of the frame before, for the layer that shows motion.

@@ -35,6 +35,11 @@ def validate(document):
             extension = item.get("extensions", {}).get("BOUNCE_scene")
             if extension is not None:
                 _check(extension, part)
+    for material in document.get("materials", []):
+        for texture in (*material.values(), *material.get("pbrMetallicRoughness", {}).values()):
+            extension = texture.get("extensions", {}).get("BOUNCE_scene") if "index" in _keys(texture) else None
+            if extension is not None:
+                _check(extension, "texture")
     for pointer in pointers(document):
         assert any(pattern.fullmatch(pointer) for pattern in _POINTERS), f"{pointer} is not in the table"
         _resolve(document, pointer)
@@ -48,6 +53,10 @@ def pointers(document):
         for channel in animation["channels"]:
             if channel["target"]["path"] == "pointer":
                 yield channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"]
+
+
+def _keys(value):
+    return value.keys() if isinstance(value, dict) else ()
 
 
 def _check(instance, part):

@@ -72,11 +72,51 @@ def test_alpha(scene):
     assert "alphaMode" not in material(scene, "Plain")
 
 
+@pytest.mark.parametrize("name, mode, alpha, textured", [
+    ("Cut by image", "MASK", 1.0, True), ("Clear by image", "BLEND", 1.0, True), ("Half clear", "BLEND", 0.3, True),
+    ("Mixed clear", "BLEND", 0.3, False), ("Mixed clear, other way", "BLEND", 0.7, False),
+    ("Mixed by image", "BLEND", 1.0, True), ("Textured", None, 1.0, True),
+])
+def test_alpha_is_what_cycles_sees_through(scene, name, mode, alpha, textured):
+    found = material(scene, name)
+    pbr = found["pbrMetallicRoughness"]
+    assert found.get("alphaMode") == mode
+    assert pbr["baseColorFactor"][3] == pytest.approx(alpha)
+    assert ("baseColorTexture" in pbr) == textured
+    if mode == "MASK":
+        assert found["alphaCutoff"] == pytest.approx(0.3, abs=1e-6) and found["alphaCutoff"] > 0.3
+
+
+def test_mixed_surface_keeps_its_colour(scene):
+    for name in ("Mixed clear", "Mixed clear, other way", "Mixed by image"):
+        assert material(scene, name)["pbrMetallicRoughness"]["baseColorFactor"][:3] == pytest.approx([0.2, 0.4, 0.6])
+
+
+def test_constant_beside_an_image_is_its_factor(scene):
+    pbr = material(scene, "Times constant")["pbrMetallicRoughness"]
+    assert "baseColorTexture" in pbr and pbr["baseColorFactor"] == pytest.approx([0.5, 0.25, 1, 1])
+
+
+@pytest.mark.parametrize("name, texture, encoding", [
+    ("Data as colour", "baseColorTexture", "linear"), ("Textured", "baseColorTexture", None),
+    ("Colour as data", "metallicRoughnessTexture", "srgb"), ("Data as data", "metallicRoughnessTexture", None),
+])
+def test_colour_spaces_that_gltf_does_not_expect(scene, name, texture, encoding):
+    extensions = material(scene, name)["pbrMetallicRoughness"][texture].get("extensions", {})
+    assert extensions.get("BOUNCE_scene") == (None if encoding is None else {"encoding": encoding})
+
+
+def test_normal_map_in_srgb(scene):
+    assert material(scene, "Normal mapped")["normalTexture"]["extensions"]["BOUNCE_scene"] == {"encoding": "srgb"}
+
+
 @pytest.mark.parametrize("name", ["Textured", "Textured diffuse"])
 def test_textures(scene, name):
     texture = material(scene, name)["pbrMetallicRoughness"]["baseColorTexture"]
     assert texture["extensions"]["KHR_texture_transform"]["scale"] == pytest.approx([2, 3])
-    assert len(scene.gltf.json["images"]) == 1
+    textures = scene.gltf.json["textures"]
+    other = material(scene, "Textured")["pbrMetallicRoughness"]["baseColorTexture"]
+    assert textures[texture["index"]]["source"] == textures[other["index"]]["source"], "one image serves both"
     attributes = primitive(scene, name)["attributes"]
     assert "TEXCOORD_0" in attributes and "TEXCOORD_1" not in attributes
 
@@ -85,7 +125,7 @@ def test_unreadable_inputs_have_their_unconnected_colour(scene):
     noise = material(scene, "Noise")["pbrMetallicRoughness"]
     assert noise["baseColorFactor"] == pytest.approx([0.4, 0.3, 0.2, 1]) and "baseColorTexture" not in noise
     ramped = material(scene, "Ramped")["pbrMetallicRoughness"]
-    assert "baseColorTexture" in ramped and "baseColorFactor" not in ramped
+    assert "baseColorTexture" in ramped and ramped["baseColorFactor"] == [1, 1, 1, 1]
 
 
 def test_textured_emission_keeps_its_animated_strength(scene):
@@ -140,6 +180,10 @@ def test_unsupported(scene):
         of("Mixed", "Mix Shader"),
         of("Glass", "Glass BSDF, exported as a Diffuse BSDF of its colour"),
         of("Smoke", "volume"),
+        of("Clipped", "Principled BSDF: Base Color: Image Texture with extension Clip, exported as Extend"),
+        of("Clipped", "Principled BSDF: Base Color: Image Texture with cubic interpolation, exported as linear"),
+        of("Tinted", "Principled BSDF: Specular Tint"),
+        of("Tinted", "Principled BSDF: Multiscatter GGX, exported as GGX"),
         of("Box mapped", "Principled BSDF: Base Color comes from Image Texture with box projection; "
            "its image is exported as it is"),
         of("Animated sheen", 'animation of nodes["Principled BSDF"].inputs[13].default_value'),

@@ -105,6 +105,18 @@ Image decode(Source& source, std::span<const uint8_t> bytes, const std::string& 
     return image;
 }
 
+bool is_opaque(const Image& image) {
+    const auto full = [](const auto& channels, auto one) {
+        for (size_t i = 3; i < channels.size(); i += 4) {
+            if (channels[i] != one) {
+                return false;
+            }
+        }
+        return true;
+    };
+    return full(image.rgba8, uint8_t{255}) && full(image.rgba16, uint16_t{65535});
+}
+
 }  // namespace
 
 Image read_image(Source& source, Buffers& buffers, int index) {
@@ -123,6 +135,7 @@ Image read_image(Source& source, Buffers& buffers, int index) {
         throw refusal("{} has neither a URI nor a buffer view", whose);
     }
     image.name = name;
+    image.opaque = is_opaque(image);
     return image;
 }
 

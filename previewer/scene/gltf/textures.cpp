@@ -117,6 +117,12 @@ TextureRef TextureTable::read(const json& owner, const char* key) {
             ref.uv_set));
         return {};
     }
+    if (const json* blender = extension(*info, "BOUNCE_scene")) {
+        const std::string encoding = string_or(*blender, "encoding", "");
+        ref.encoding = encoding == "srgb"     ? Encoding::srgb
+                       : encoding == "linear" ? Encoding::linear
+                                              : Encoding::by_use;
+    }
     ref.texture = texture((*info)["index"].get<int>());
     return ref;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/points/texture_reader.h"
+#include "scene/transparency.h"
 
 namespace bounce::scene {
 namespace {
@@ -25,6 +26,12 @@ glm::vec4 vertex_color(const Primitive& primitive, const PointSample& point) {
     const glm::uvec3& corner = point.triangle;
     return primitive.colors[corner.x] * (1.0F - point.second - point.third) +
            primitive.colors[corner.y] * point.second + primitive.colors[corner.z] * point.third;
+}
+
+// Between 0 and 1, never either: of consecutive numbers evenly spread, as the points are over surfaces.
+float threshold(uint32_t number) {
+    const uint32_t golden = 0x9E3779B9U;  // of 2^32
+    return (static_cast<float>((number * golden) >> 8U) + 0.5F) / 16777216.0F;
 }
 
 }  // namespace
@@ -75,6 +82,7 @@ std::vector<glm::vec3> point_emissions(const Scene& scene, const SurfaceParts& p
 
 void drop_cut_out(const Scene& scene, const SurfaceParts& parts, std::vector<PointSample>& points) {
     TextureReader reader(scene);
+    uint32_t number = 0;
     for (PointSample& point : points) {
         const Primitive& primitive = primitive_of(scene, parts, point);
         if (primitive.material == k_none) {
@@ -88,8 +96,10 @@ void drop_cut_out(const Scene& scene, const SurfaceParts& parts, std::vector<Poi
         if (const auto color = reader.read(material.base_color_texture, primitive, point, 0.0F, true)) {
             alpha *= color->a;
         }
-        // A blended surface is drawn as a cut-out at one half (gpu/gpu_scene.cpp).
-        const float cutoff = material.alpha_mode == AlphaMode::blend ? 0.5F : material.alpha_cutoff;
+        // Of a blended surface a part alpha of the points stays.
+        const float cutoff =
+            material.alpha_mode == AlphaMode::blend ? threshold(number) : material.alpha_cutoff;
+        ++number;
         if (alpha < cutoff) {
             point.share = 0.0F;
         }

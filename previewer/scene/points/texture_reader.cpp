@@ -112,6 +112,7 @@ std::optional<glm::vec4> TextureReader::read(const TextureRef& ref, const Primit
     if (uvs.empty()) {
         return std::nullopt;
     }
+    color = ref.is_srgb(color);
     const Texture& texture = scene_.textures[at(ref.texture)];
     std::array<glm::vec2, 3> corner;
     for (size_t k = 0; k < 3; ++k) {

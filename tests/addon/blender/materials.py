@@ -67,6 +67,56 @@ def plain():
     node.inputs["Alpha"].default_value = 0.4
 
 
+def seen_through(picture):
+    for name, between in (("Cut by image", "GREATER_THAN"), ("Clear by image", None), ("Half clear", "MULTIPLY")):
+        nodes, links, node = material(name)
+        texture = nodes.new("ShaderNodeTexImage")
+        texture.image = picture
+        links.new(texture.outputs["Color"], node.inputs["Base Color"])
+        alpha = texture.outputs["Alpha"]
+        if between is not None:
+            math = nodes.new("ShaderNodeMath")
+            math.operation, math.inputs[1].default_value = between, 0.3
+            links.new(alpha, math.inputs[0])
+            alpha = math.outputs[0]
+        links.new(alpha, node.inputs["Alpha"])
+    for name, clear, source in (("Mixed clear", 1, 0.3), ("Mixed clear, other way", 2, 0.3), ("Mixed by image", 1, picture)):
+        nodes, links, node = material(name)
+        mix, transparent = nodes.new("ShaderNodeMixShader"), nodes.new("ShaderNodeBsdfTransparent")
+        links.new(transparent.outputs[0], mix.inputs[clear])
+        links.new(node.outputs[0], mix.inputs[3 - clear])
+        links.new(mix.outputs[0], nodes["Material Output"].inputs["Surface"])
+        if source is picture:
+            texture = nodes.new("ShaderNodeTexImage")
+            texture.image = picture
+            links.new(texture.outputs["Alpha"], mix.inputs[0])
+        else:
+            mix.inputs[0].default_value = source
+        node.inputs["Base Color"].default_value = (0.2, 0.4, 0.6, 1)
+    nodes, links, node = material("Times constant")
+    texture, mix = nodes.new("ShaderNodeTexImage"), nodes.new("ShaderNodeMixRGB")
+    texture.image, mix.blend_type = picture, "MULTIPLY"
+    mix.inputs[0].default_value, mix.inputs[2].default_value = 1.0, (0.5, 0.25, 1, 1)
+    links.new(texture.outputs[0], mix.inputs[1])
+    links.new(mix.outputs[0], node.inputs["Base Color"])
+    data = bpy.data.images.new("Data", 4, 4)
+    data.colorspace_settings.name = "Non-Color"
+    data.pack()
+    for name, image, socket in (("Data as colour", data, "Base Color"), ("Colour as data", picture, "Roughness"),
+                                ("Data as data", data, "Roughness")):
+        nodes, links, node = material(name)
+        texture = nodes.new("ShaderNodeTexImage")
+        texture.image = image
+        links.new(texture.outputs[0], node.inputs[socket])
+    nodes, links, node = material("Clipped")
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image, texture.extension, texture.interpolation = picture, "CLIP", "Cubic"
+    links.new(texture.outputs[0], node.inputs["Base Color"])
+    _, _, node = material("Tinted")
+    node.inputs["Specular Tint"].default_value = 0.5
+    node.distribution = "MULTI_GGX"
+
+
 def textured(picture):
     for name, shader, socket in (("Textured", None, "Base Color"), ("Textured diffuse", "ShaderNodeBsdfDiffuse", "Color")):
         nodes, links, node = material(name, shader)
@@ -171,6 +221,7 @@ def main():
     tree.links.new(tree.nodes.new("ShaderNodeTexSky").outputs[0], tree.nodes["Background"].inputs["Color"])
     picture = image()
     plain()
+    seen_through(picture)
     textured(picture)
     vertex_colored()
     animated()

@@ -493,7 +493,29 @@ TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {
     add_light("Panel", scene::LightType::area);
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("area light Panel")));
     scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+    scene_.materials[0].base_color.a = 0.5F;
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("cut-outs at one half: hard shadows")));
+    settings_.transparent_layers = 0;
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("blended transparency")));
+}
+
+TEST_F(FramePlanTest, BlendedSurfacesHaveLayersAndVeiledLights) {
+    EXPECT_THAT(reason(plan(), "transparent layers"), HasSubstr("no visible surface is blended"));
+    scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+    EXPECT_EQ(plan().blend_layers, 0) << "its alpha is 1 everywhere";
+    EXPECT_EQ(plan().veiled, std::vector<bool>{false});
+    scene_.materials[0].base_color.a = 0.5F;
+    FramePlan p = plan();
+    EXPECT_EQ(p.blend_layers, settings_.transparent_layers);
+    EXPECT_EQ(p.veiled, std::vector<bool>{true}) << "a light without size";
+    EXPECT_EQ(reason(p, "transparent layers"), "");
+    scene_.lights[0].radius_m = 0.1F;
+    EXPECT_EQ(plan().veiled, std::vector<bool>{false}) << "its soft shadow holds them";
+    scene_.materials[0].base_color.a = 0.0F;
+    EXPECT_EQ(plan().blend_layers, 0) << "nothing is there";
+    scene_.materials[0].base_color.a = 0.5F;
+    settings_.show = Show::rsm_flux;
+    EXPECT_EQ(plan().blend_layers, 0);
 }
 
 TEST_F(FramePlanTest, ALightWithASizeHasASoftShadow) {

@@ -99,6 +99,7 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--rsm-samples", 1, 32768, [](Settings& s, int v) { s.rsm_samples = v; });
     expect_range("--rsm-lowres", 2, 64, [](Settings& s, int v) { s.lowres_step = v; });
     expect_range("--shadow-size", 2, 16384, [](Settings& s, int v) { s.shadow_size = v; });
+    expect_range("--transparent-layers", 0, 16, [](Settings& s, int v) { s.transparent_layers = v; });
     expect_range("--shadow-samples", 8, 256, [](Settings& s, int v) { s.shadow_samples = v; });
     EXPECT_THAT(refusal([](Settings& s) { s.shadow_samples = 48; }), HasSubstr("power of two"));
     expect_range("--soft-shadow-size", 2, 16384, [](Settings& s, int v) { s.soft_shadow_size = v; });

@@ -234,8 +234,10 @@ TEST(PointMaterials, CutOutsHaveNoPoints) {
     // / 2.
     EXPECT_NEAR(share_left(AlphaMode::mask, 0.3F, 1.0F, 1.0F), 1.0 - (0.25 + 0.25), 0.01);
     EXPECT_NEAR(share_left(AlphaMode::mask, 0.45F, 1.0F, 1.0F), 1.0 - (0.25 + 0.375), 0.01);
-    EXPECT_NEAR(share_left(AlphaMode::blend, 0.1F, 1.0F, 1.0F), 1.0 - (0.25 + 0.5 / 1.2), 0.01)
-        << "blending is cut at one half";
+    EXPECT_NEAR(share_left(AlphaMode::blend, 0.1F, 1.0F, 1.0F), 0.3, 0.01)
+        << "of a blended surface a part alpha stays";
+    EXPECT_NEAR(share_left(AlphaMode::blend, 0.1F, 0.5F, 1.0F), 0.15, 0.01);
+    EXPECT_EQ(share_left(AlphaMode::blend, 0.1F, 0.0F, 1.0F), 0.0);
     EXPECT_EQ(share_left(AlphaMode::mask, 0.31F, 0.5F, 1.0F), 0.0) << "the factor counts";
     EXPECT_EQ(share_left(AlphaMode::mask, 0.31F, 1.0F, 0.5F), 0.0) << "vertex colours count";
     EXPECT_EQ(share_left(AlphaMode::opaque, 0.99F, 0.1F, 1.0F), 1.0) << "an opaque surface has no holes";
