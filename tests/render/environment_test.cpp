@@ -101,6 +101,7 @@ TEST_F(EnvironmentImage, AnOrthographicCameraSeesOneDirection) {
     const scene::Scene scene = under([](const glm::dvec3& d) { return 0.5 * (d + 1.0); });
     CameraView view = camera_along({0.6, 0.0, -0.8});
     view.camera.perspective = false;
+    view.camera.far_m = 2.0F;  // no farther than the frame is wide
     const Rendered r = draw(scene, view, lit_directly());
     for (const int x : {0, size / 2, size - 1}) {
         EXPECT_LT(glm::length(r.at(x, x) - glm::dvec3(0.8, 0.5, 0.1)), 0.005);
@@ -155,6 +156,20 @@ TEST_F(EnvironmentImage, MetalReflectsWhatItsLobeGathers) {
         const double found = middle(draw(scene, camera_from_above(4.0, 50.0), lit_directly())).g;
         const glm::dvec2 part = gpu::environment_brdf(1.0, static_cast<double>(roughness));
         EXPECT_NEAR(found, part.x + part.y, 0.01) << roughness;
+    }
+}
+
+TEST_F(EnvironmentImage, BlackPlasticReflectsMoreAtAGrazingView) {
+    // Seen at 75 degrees: 0.04 of the first part and all of the second, which is most of it.
+    for (const float roughness : {0.0F, 0.3F, 0.6F}) {
+        scene::Scene scene = under([](const glm::dvec3&) { return glm::dvec3(1.0); });
+        const int material = add_metal(scene, roughness, 0.0F);
+        scene.materials[static_cast<size_t>(material)].base_color = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+        add_mesh_node(scene, add_square(scene, 40.0F, material), rotated(75.0, {0.0, 1.0, 0.0}));
+        const double found = middle(draw(scene, camera_from_above(2.0, 50.0), lit_directly())).g;
+        const glm::dvec2 part =
+            gpu::environment_brdf(std::cos(75.0 * pi / 180.0), static_cast<double>(roughness));
+        EXPECT_NEAR(found, 0.04 * part.x + part.y, 0.01) << roughness;
     }
 }
 
