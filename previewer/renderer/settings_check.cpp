@@ -107,8 +107,7 @@ std::string settings_refusal(const Settings& s) {
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
           map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
           map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
-          out_of("--transparent-layers", s.transparent_layers, 0, k_most_transparent_layers,
-                 "give a number; 0 cuts blended surfaces out at one half"),
+          out_of("--transparent-layers", s.transparent_layers, 0, k_most_transparent_layers, "give a number"),
           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"), ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
