@@ -86,6 +86,9 @@ ordered_json settings_json(const Settings& s) {
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;
         out["soft_shadow_size"] = s.soft_shadow_size;
+    } else if (s.direct_shadows == DirectShadows::convolution) {
+        out["soft_shadow_size"] = s.soft_shadow_size;
+        out["convolution_order"] = s.convolution_order;
     }
     if (s.technique != Technique::direct) {
         out["rsm_size"] = s.used_rsm_size();

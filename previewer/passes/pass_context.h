@@ -29,6 +29,7 @@ struct SoftMaps {
     int layers = 0;                               // of all maps
     std::vector<Face> faces;                      // those that are drawn
     std::vector<gpu::UniformArena::Slot> chunks;  // ShadowViews
+    int convolution_order = 0;                    // more: one map, whose surroundings are convolved
     [[nodiscard]] bool empty() const { return chunks.empty(); }
 };
 

@@ -5,13 +5,7 @@
 #include <bit>
 
 namespace bounce::passes {
-namespace {
-
-int tiles_along(int pixels) {
-    return (pixels + GROUP_2D - 1) / GROUP_2D;
-}
-
-TextureHandle add_maps(FrameGraph& graph, const PassContext& context, const LightPass& light) {
+TextureHandle add_soft_maps(FrameGraph& graph, const PassContext& context, const LightPass& light) {
     TextureHandle maps;
     graph.add_pass("soft shadow maps: " + light.name, [&](PassBuilder& builder) {
         const SoftMaps& soft = light.soft;
@@ -37,6 +31,12 @@ gl::Defines soft_defines(const LightPass& light) {
     gl::Defines defines = light_defines(light);
     defines["SOFT_KIND"] = std::to_string(light.soft.map_kind);
     return defines;
+}
+
+namespace {
+
+int tiles_along(int pixels) {
+    return (pixels + GROUP_2D - 1) / GROUP_2D;
 }
 
 void declare_maps(PassBuilder& builder, const GBuffer& gbuffer, TextureHandle maps) {
@@ -145,7 +145,7 @@ TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const 
 
 SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
                            const LightPass& light) {
-    const TextureHandle maps = add_maps(graph, context, light);
+    const TextureHandle maps = add_soft_maps(graph, context, light);
     SoftShadow out;
     out.flags = add_probe(graph, context, gbuffer, light, maps);
     const Tiles tiles = add_tiles(graph, context, light, out.flags);

@@ -83,6 +83,10 @@ bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& l
             fmt::format("light {}: drawn with a hard shadow in spite of its size, as asked for", light.name));
         return leave_out("hard shadows were asked for");
     }
+    if (settings.direct_shadows == DirectShadows::convolution) {
+        plan.approximations.push_back(
+            fmt::format("light {}: its soft shadow is convolved from one map of its centre", light.name));
+    }
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include "passes/antialias.h"
 #include "passes/classic_maps.h"
 #include "passes/composite.h"
+#include "passes/convolution_shadow.h"
 #include "passes/direct_light.h"
 #include "passes/gbuffer.h"
 #include "passes/irsm.h"
@@ -262,7 +263,10 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             const bool soft = !light.soft.empty();
             const TextureHandle shadow =
                 in.plan.shadows[i] && !soft ? add_shadow_map(graph, context, light) : TextureHandle{};
-            const SoftShadow penumbra = soft ? add_soft_shadow(graph, context, gbuffer, light) : SoftShadow{};
+            const SoftShadow penumbra = !soft ? SoftShadow{}
+                                        : light.soft.convolution_order > 0
+                                            ? add_convolution_shadow(graph, context, gbuffer, light)
+                                            : add_soft_shadow(graph, context, gbuffer, light);
             direct = add_direct_light(graph, context, gbuffer, light, shadow, penumbra, direct);
         }
         if (in.plan.indirect) {

@@ -138,7 +138,8 @@ passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms, 
     }
     for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
         gpu::ShadowViews chunk{};
-        std::copy_n(&setup.views[first], SHADOW_VIEW_CHUNK, chunk.view);
+        std::copy_n(&setup.views[first], std::min<size_t>(SHADOW_VIEW_CHUNK, setup.views.size() - first),
+                    chunk.view);
         out.chunks.push_back(uniforms.add(chunk));
     }
     return out;
@@ -331,11 +332,13 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.flux_w = setup.flux_w;
         if (plan.soft[i]) {
+            const bool convolved = settings.direct_shadows == DirectShadows::convolution;
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
                                    gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
-                                   settings.shadow_samples, settings.soft_shadow_size),
+                                   convolved ? 1 : settings.shadow_samples, settings.soft_shadow_size),
                 uniforms_, make_view);
+            pass.soft.convolution_order = convolved ? settings.convolution_order : 0;
         }
         lights.push_back(pass);
         fluxes.push_back(setup.flux_w);

@@ -13,17 +13,23 @@ layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(binding = IMG_OUT, rgba32f) uniform image2D direct_image;
 
 #ifdef SOFT_SHADOW
-// What passes/soft_probe.comp and soft_penumbra.comp found out.
+// What passes/soft_probe.comp and soft_penumbra.comp, or convolution_shadow.comp, found out.
 layout(binding = IMG_IN, rg32f) readonly uniform image2D share_image;
+#ifdef SOFT_TILES
 layout(std430, binding = SSBO_TILE_FLAGS) readonly buffer FlagBlock {
     uint flags[];
 };
+#endif
 
 float soft_visibility(ivec2 pixel) {
+#ifndef SOFT_TILES
+    return imageLoad(share_image, pixel).r;
+#else
     ivec2 tile = pixel / GROUP_2D;
     uint seen = flags[tile.y * ((frame.size.x + GROUP_2D - 1) / GROUP_2D) + tile.x];
     vec2 share = imageLoad(share_image, pixel).rg;
     return seen != 3u ? (seen == 2u ? 0.0 : 1.0) : share.y > 0.0 ? share.x / share.y : 1.0;
+#endif
 }
 #endif
 
