@@ -55,6 +55,15 @@ vec4 comparison(int i, float depth) {
     return vec4(at.y * w.x, -at.x * w.x, at.w * w.y, -at.z * w.y);
 }
 
+// One minus twice the series where the map is nearer than the receiver by `apart`: 1 for a series without end.
+float response(float apart) {
+    float sum = 0.0;
+    for (int i = 0; i < SERIES_LAYERS; ++i) {
+        sum += 2.0 * dot(term_weights(i), sin(frequencies(i) * apart));
+    }
+    return sum;
+}
+
 // Distance along the light's axis for what the map stores; view: see GpuShadowView.
 float linear_depth(float stored, GpuShadowView view) {
 #if SOFT_KIND == MAP_ORTHOGRAPHIC

@@ -23,7 +23,13 @@ const float SQUARED_DISK = sqrt(PI) / 2.0;
 
 // Below this the hidden part is what the series rings.
 const float LEAST_HIDDEN = 0.01;
-const float SLACK = 0.0;
+
+// Each looks only as wide as the one before found the penumbra to be. More of them darken umbrae and tear penumbrae.
+const int SEARCHES = 3;
+
+// A blocker so near its receiver that the series hardly tells them apart hides by at least this; below, noise would be
+// taken for shadows.
+const float LEAST_RESPONSE = 0.2;
 
 // Filters have at least this half side, texels: narrower ones would show the texels.
 const float LEAST_REACH = 1.0;
@@ -46,25 +52,11 @@ vec4 corner_between(vec2 at, int layer) {
                mix(corner(i + ivec2(0, 1), layer), corner(i + ivec2(1, 1), layer), f.x), f.y);
 }
 
-vec4 mean_whole(Part p, int layer) {
-    ivec2 low = ivec2(p.low);
-    ivec2 high = ivec2(p.high);
-    vec4 sum = corner(high, layer) - corner(ivec2(low.x, high.y), layer) - corner(ivec2(high.x, low.y), layer) + corner(low, layer);
-    vec2 side = p.high - p.low;
-    return sum / (side.x * side.y);
-}
-
-vec4 mean_between(Part p, int layer) {
+vec4 mean(Part p, int layer) {
     vec4 sum = corner_between(p.high, layer) - corner_between(vec2(p.low.x, p.high.y), layer) -
                corner_between(vec2(p.high.x, p.low.y), layer) + corner_between(p.low, layer);
     vec2 side = p.high - p.low;
     return sum / (side.x * side.y);
-}
-
-// Of whole texels around `at`.
-Part whole_part(vec2 at, vec2 reach, float size) {
-    vec2 low = clamp(floor(at - reach), vec2(0.0), vec2(size - 1.0));
-    return Part(low, clamp(ceil(at + reach), low + 1.0, vec2(size)));
 }
 
 Part part(vec2 at, vec2 reach, float size) {
@@ -83,6 +75,34 @@ vec2 light_reach(int face) {
 #else
     return vec2(sqrt(light.intensity.w) * SQUARED_DISK);
 #endif
+}
+
+// How much nearer the light, in depths of the map, what hides it is than the receiver; 0 where nothing does. reach: of the
+// part of the map that tells, texels.
+float separation(vec2 at, vec2 reach, float size, float depth, int first) {
+    Part search = part(at, reach, size);
+    float lit = 0.5;
+    float lit_depth = 0.5 * mean(search, first + 2 * SERIES_LAYERS).x;
+    float depth_sum = 2.0 * lit_depth;
+    for (int i = 0; i < SERIES_LAYERS; ++i) {
+        vec4 compare = comparison(i, depth);
+        lit += dot(compare, mean(search, first + i));
+        lit_depth += dot(compare, mean(search, first + SERIES_LAYERS + i));
+    }
+    // The series is one half where depths are equal, as on the receiver's own surface, and there as much above as below it
+    // where the surface is slanted. So of a surface whose part p is hidden by what is x nearer it sees
+    // (1 - p) / 2 + p (1 - r(x)) / 2, r being response(), and the same with depths; x (1 + r) / (2 r) is what follows.
+    float hidden = 1.0 - 2.0 * lit;
+    float apart = 0.0;
+    if (hidden > LEAST_HIDDEN) {
+        float found = clamp((lit_depth + lit * depth - depth_sum) / hidden + depth, 0.0, 2.0);
+        apart = min(found, depth);
+        for (int i = 0; i < 4; ++i) {
+            float r = max(response(apart), 0.0);
+            apart = min(found * 2.0 * r / (1.0 + r), depth);
+        }
+    }
+    return apart;
 }
 
 float visible_share(vec3 position) {
@@ -117,28 +137,17 @@ float visible_share(vec3 position) {
 #endif
     float depth = unit_depth(distance, range);
     int first = face * BASIS_LAYERS;
-    Part search = whole_part(at, max(FILTER_REACH(range.x), LEAST_REACH), size);
-    float lit = 0.5;
-    float lit_depth = 0.5 * mean_whole(search, first + 2 * SERIES_LAYERS).x;
-    float depth_sum = 2.0 * lit_depth;
-    for (int i = 0; i < SERIES_LAYERS; ++i) {
-        vec4 compare = comparison(i, depth);
-        lit += dot(compare, mean_whole(search, first + i));
-        lit_depth += dot(compare, mean_whole(search, first + SERIES_LAYERS + i));
+    float apart = depth;  // of the nearest that the map holds: what may hide the light lies within that reach
+    for (int search = 0; search < SEARCHES; ++search) {
+        apart = separation(at, max(FILTER_REACH(distance_of(depth - apart, range)), LEAST_REACH), size, depth, first);
     }
-    // The series is one half where depths are equal, as on the receiver's own surface, and there as much above as below it
-    // where the surface is slanted. So of a surface whose part p is hidden it sees (1 - p) / 2 lit, and the hidden texels'
-    // depths are what the receiver's own leave.
-    float hidden = 1.0 - 2.0 * lit;
-    float hidden_depth = depth_sum - lit_depth - lit * depth;
-    float blocker = hidden > LEAST_HIDDEN ? clamp(hidden_depth / hidden, 0.0, depth) : depth;
-    Part filtered = part(at, max(FILTER_REACH(distance_of(blocker, range)), LEAST_REACH), size);
-    float share = 0.5;
+    vec2 wide = FILTER_REACH(distance_of(depth - apart, range));
+    Part filtered = part(at, max(wide, LEAST_REACH), size);
+    float hidden = 0.0;
     for (int i = 0; i < SERIES_LAYERS; ++i) {
-        share += dot(comparison(i, depth), mean_between(filtered, first + i));
+        hidden -= 2.0 * dot(comparison(i, depth), mean(filtered, first + i));
     }
-    // What still rings is less than SLACK to both sides.
-    return clamp((2.0 * share - SLACK) / (1.0 - 2.0 * SLACK), 0.0, 1.0);
+    return clamp(1.0 - hidden / clamp(response(apart), LEAST_RESPONSE, 1.2), 0.0, 1.0);
 }
 
 void main() {
