@@ -92,7 +92,9 @@ def cases():
     yield case("area-disk-spread", area("DISK", 0.8, spread=math.radians(70), energy=60.0))
     yield case("area-low", area("SQUARE", 1.0, place=(-0.9, 0.0, 0.7), energy=40.0))
     yield case("area-coloured", area("SQUARE", 0.4, color=(0.1, 0.4, 1.0)))
-    yield case("area-parented", area("RECTANGLE", 0.6, 0.3, parent=(2.0, 1.0, 1.0)))
+    yield case("area-parented", area("RECTANGLE", 0.6, 0.3, parent=(2.0, 2.0, 2.0)))
+    yield case("area-sheared", area("RECTANGLE", 0.6, 0.3, parent=(2.0, 1.0, 1.0)))
+    yield case("area-mirrored", area("RECTANGLE", 0.6, 0.3, parent=(-1.0, 1.0, 1.0)))
     yield case("several", point(0.1, energy=80.0, color=(1.0, 0.6, 0.3)), spot(50.0, energy=200.0, color=(0.3, 0.5, 1.0)),
                area("DISK", 0.5, place=(1.5, 1.2, 2.5), energy=60.0), sun(1.0, energy=0.4, place=(2.0, -3.0, 4.0)))
     # What a user may set but hardly means. Cycles' picture says what it does.

@@ -35,6 +35,7 @@ struct FramePlan {
     int world_bounces = 0;                    // of its light
     bool motion = false;                      // nothing but where surfaces were in the frame before
     std::vector<int> lights;                  // into Pose::light_instances, those that send light
+    std::vector<bool> takes_light;            // per entry of `lights`: power below 0; it has no bounce
     std::vector<bool> shadows;                // per entry of `lights`
     std::vector<bool> soft;                   // the same: those whose shadow has a penumbra
     std::vector<LeftOut> left_out;            // and why

@@ -269,7 +269,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
                                             : add_soft_shadow(graph, context, gbuffer, light);
             direct = add_direct_light(graph, context, gbuffer, light, shadow, penumbra, direct);
         }
-        if (in.plan.indirect) {
+        if (in.plan.indirect && !in.plan.takes_light[i]) {
             gather.sources.push_back(
                 {light, add_rsm(graph, context, light), in.gather_frames[i], in.patterns[i]});
         }

@@ -330,7 +330,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
         }
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
-        pass.flux_w = setup.flux_w;
+        pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         if (plan.soft[i]) {
             const bool convolved = settings.direct_shadows == DirectShadows::convolution;
             pass.soft = soft_maps(
@@ -341,7 +341,7 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
             pass.soft.convolution_order = convolved ? settings.convolution_order : 0;
         }
         lights.push_back(pass);
-        fluxes.push_back(setup.flux_w);
+        fluxes.push_back(pass.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
     const glm::vec3 radiance = pose.world.color * pose.world.strength;
