@@ -10,7 +10,7 @@
 #endif
 
 // Places on a light's disk that its spot's profile is averaged over: a hard rim is drawn in steps as fine as that.
-const int RIM_PLACES = 32;
+const int RIM_PLACES = 64;
 const float GOLDEN_ANGLE = 2.39996323;
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;

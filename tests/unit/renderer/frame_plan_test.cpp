@@ -456,5 +456,35 @@ TEST_F(FramePlanTest, ALightWithoutShadowHasNoPenumbra) {
     EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("hard shadow"))));
 }
 
+TEST_F(FramePlanTest, AConvolvedShadowIsNamedAndHardLightsHaveNone) {
+    settings_.direct_shadows = DirectShadows::convolution;
+    EXPECT_TRUE(plan().approximations.empty()) << "a light without size";
+    EXPECT_EQ(plan().soft, std::vector<bool>{false});
+    scene_.lights[0].radius_m = 0.1F;
+    EXPECT_EQ(plan().soft, std::vector<bool>{true});
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("light Key: its soft shadow is convolved")));
+}
+
+TEST_F(FramePlanTest, ALightBelowZeroTakesDirectLightAlone) {
+    scene_.lights[0].power_w = -5.0F;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.lights, std::vector<int>{0});
+    EXPECT_EQ(p.takes_light, std::vector<bool>{true});
+    EXPECT_FALSE(p.indirect);
+    EXPECT_THAT(p.approximations, Contains(HasSubstr("takes light away")));
+    scene_.lights[0].power_w = 5.0F;
+    EXPECT_EQ(plan().takes_light, std::vector<bool>{false});
+}
+
+TEST_F(FramePlanTest, AnAreaLightWithoutAreaSendsNoLight) {
+    scene::Light& panel = add_light("Panel", scene::LightType::area);
+    panel.size_x_m = 1.0F;
+    panel.size_y_m = 0.0F;
+    EXPECT_EQ(plan().lights.size(), 1U);
+    EXPECT_THAT(reason(plan(), "light: Panel"), HasSubstr("no light"));
+    scene_.lights.back().size_y_m = 1.0F;
+    EXPECT_EQ(plan().lights.size(), 2U);
+}
+
 }  // namespace
 }  // namespace bounce
