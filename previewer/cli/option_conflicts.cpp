@@ -90,8 +90,9 @@ std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
         return "--shadow-samples has no effect with --direct-shadows convolution, which has one map a light";
     }
     if (o.convolution_order && s.direct_shadows != DirectShadows::convolution) {
-        return fmt::format("--convolution-order has no effect with --direct-shadows {}; give --direct-shadows convolution",
-                           name_of(s.direct_shadows));
+        return fmt::format(
+            "--convolution-order has no effect with --direct-shadows {}; give --direct-shadows convolution",
+            name_of(s.direct_shadows));
     }
     return {};
 }

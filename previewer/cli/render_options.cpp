@@ -263,10 +263,11 @@ void RenderOptions::add_to(CLI::App& command) {
         "Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a cube's "
         "faces",
         std::to_string(Settings{}.soft_shadow_size));
-    group.number("--convolution-order", convolution_order,
-                 fmt::format("Convolution shadows: terms of the Fourier series of a depth comparison, 1 to {}",
-                             k_most_convolution_order),
-                 std::to_string(Settings{}.convolution_order));
+    group.number(
+        "--convolution-order", convolution_order,
+        fmt::format("Convolution shadows: terms of the Fourier series of a depth comparison, 1 to {}",
+                    k_most_convolution_order),
+        std::to_string(Settings{}.convolution_order));
     command
         .add_option("--budget-ms", budget_ms,
                     "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")

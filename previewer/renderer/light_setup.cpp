@@ -122,8 +122,8 @@ void add_sun_face(Frame& frame, const scene::Bounds& bounds, const gpu::RenderSp
     out.gpu.map.z = static_cast<float>(range);
 }
 
-// The mean cosine on a surface that faces a sun of this angle, whose places are even over the disk at distance 1: what
-// Cycles gives a disk of directions, down to none for half the sky.
+// The mean cosine on a surface that faces a sun of this angle, whose places are even over the disk at
+// distance 1: what Cycles gives a disk of directions, down to none for half the sky.
 double sun_facing(double angle_rad) {
     const double half = std::clamp(0.5 * angle_rad, 0.0, 0.5 * pi);
     const double squared = std::tan(half) * std::tan(half);
@@ -151,7 +151,8 @@ void set_up_spot(const scene::Light& light, gpu::GpuLight& gpu, int& profile) {
 // hemisphere, a = (pi - spread)/2. Matches the measured profile in docs/lights.md.
 void set_up_area(const scene::LightInstance& instance, const scene::Light& light,
                  const gpu::RenderSpace& space, gpu::GpuLight& gpu) {
-    const double slats = 0.5 * (pi - std::clamp(static_cast<double>(light.spread_rad), k_least_spread_rad, pi));
+    const double slats =
+        0.5 * (pi - std::clamp(static_cast<double>(light.spread_rad), k_least_spread_rad, pi));
     const double tangent = std::tan(slats);
     const double norm = slats > 1e-6 ? 2.0 / (2.0 + (2.0 * slats - pi) * tangent) : 1.0;
     const double width = light.size_x_m * glm::length(glm::dvec3(instance.world_from_light[0])) * space.scale;

@@ -19,10 +19,9 @@ const std::map<std::string, Visibility>& setting_names<Visibility>() {
 
 template <>
 const std::map<std::string, DirectShadows>& setting_names<DirectShadows>() {
-    static const std::map<std::string, DirectShadows> names = {
-        {"hard", DirectShadows::hard},
-        {"vpl", DirectShadows::vpl},
-        {"convolution", DirectShadows::convolution}};
+    static const std::map<std::string, DirectShadows> names = {{"hard", DirectShadows::hard},
+                                                               {"vpl", DirectShadows::vpl},
+                                                               {"convolution", DirectShadows::convolution}};
     return names;
 }
 

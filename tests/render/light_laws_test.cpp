@@ -133,7 +133,8 @@ TEST_F(LightLaws, AWideSunIsItsDirectionsMeanCosine) {
             sum += 1.0 / std::sqrt(1.0 + radius * radius * (i + 0.5) / rings);
         }
         const Rendered r = plane_under(light, 3.0, 10.0);
-        expect_close(r.at(k_size / 2, k_size / 2).x, 2.0 / pi * sum / rings, "sun of " + std::to_string(degrees));
+        expect_close(r.at(k_size / 2, k_size / 2).x, 2.0 / pi * sum / rings,
+                     "sun of " + std::to_string(degrees));
     }
     light.angle_rad = static_cast<float>(pi);
     EXPECT_NEAR(plane_under(light, 3.0, 10.0).at(k_size / 2, k_size / 2).x, 0.0, 1e-6);
@@ -155,7 +156,8 @@ TEST_F(LightLaws, PowerBelowZeroTakesAsMuchAway) {
     }
 }
 
-// A spot with a radius: the cone's profile, averaged over the disk that faces the place x from under its middle.
+// A spot with a radius: the cone's profile, averaged over the disk that faces the place x from under its
+// middle.
 double rim_mean(double half_angle, double blend, double radius, double height, double x) {
     constexpr int side = 400;
     const glm::dvec3 middle(-x, 0.0, height);
@@ -191,10 +193,12 @@ TEST_F(LightLaws, ARadiusSoftensASpotsRim) {
         const double x = dx * frame_width / k_size;
         const double d2 = x * x + 9.0;
         const double falloff = 3.0 / std::sqrt(d2) * (9.0 + 0.1225) / (d2 + 0.1225);
-        const double law = falloff * rim_mean(15.0 * pi / 180.0, 0.1, 0.35, 3.0, x) / rim_mean(15.0 * pi / 180.0, 0.1, 0.35, 3.0, 0.0);
+        const double law = falloff * rim_mean(15.0 * pi / 180.0, 0.1, 0.35, 3.0, x) /
+                           rim_mean(15.0 * pi / 180.0, 0.1, 0.35, 3.0, 0.0);
         const double off = r.at(k_size / 2 + dx, k_size / 2).x / on_axis - law;
         worst = std::max(worst, std::abs(off));
-        // A rim as hard as this one crosses two places of 64 at a time; the middle of the cone is as exact as elsewhere.
+        // A rim as hard as this one crosses two places of 64 at a time; the middle of the cone is as exact as
+        // elsewhere.
         EXPECT_NEAR(off, 0.0, x < 0.3 ? k_tolerance : 2.0 / 64.0) << "x = " << x;
     }
     // Without the radius the rim is 0.13 wide instead of 0.8, and the error at its middle one half.

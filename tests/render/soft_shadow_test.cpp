@@ -256,7 +256,8 @@ TEST_F(SoftShadows, APenumbraTooNarrowToBeSeenIsDrawnAsAHardShadow) {
     EXPECT_THAT(got.report.executed, Not(Contains(HasSubstr("soft"))));
 }
 
-// Convolution shadow maps are an estimate: a lit surface must stay lit, an umbra dark, and the penumbra lie where it should.
+// Convolution shadow maps are an estimate: a lit surface must stay lit, an umbra dark, and the penumbra lie
+// where it should.
 class ConvolutionShadows : public SoftShadows {
   protected:
     static Settings convolved() {
@@ -285,9 +286,11 @@ TEST_F(ConvolutionShadows, AHalfPlaneHidesAboutItsPartOfALight) {
         EXPECT_THAT(got.report.executed, Not(Contains("soft shadow probe: light")));
         double sum = 0.0;
         for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
-            const double off = (got.at(x, k_pixels / 2).x - want.at(x, k_pixels / 2).x) / lit.at(x, k_pixels / 2).x;
+            const double off =
+                (got.at(x, k_pixels / 2).x - want.at(x, k_pixels / 2).x) / lit.at(x, k_pixels / 2).x;
             ASSERT_TRUE(std::isfinite(off));
-            // Half of a penumbra is the most that a wrong width costs; a hard shadow's edge is off by as much as 0.5.
+            // Half of a penumbra is the most that a wrong width costs; a hard shadow's edge is off by as much
+            // as 0.5.
             EXPECT_NEAR(off, 0.0, 0.35) << "type " << static_cast<int>(type) << ", pixel " << x;
             sum += off;
         }
