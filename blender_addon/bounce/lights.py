@@ -42,15 +42,16 @@ def punctual_cone(cone_angle_rad, blend):
 
 
 def punctual_light(light):
-    """The KHR_lights_punctual values of one BOUNCE_scene light; None for an area light, which has no twin there."""
+    """The KHR_lights_punctual values of one BOUNCE_scene light; None for an area light, which has no twin there. Light that
+    is taken away has none either: it is dark."""
     if light["type"] == "area":
         return None
     punctual = {
         "name": light["name"],
         "type": PUNCTUAL_TYPE[light["type"]],
-        "color": [float(c) for c in light["color"]],
+        "color": [max(0.0, float(c)) for c in light["color"]],
         "intensity": punctual_intensity(
-            light["type"], light.get("power_w", 0.0), light.get("irradiance_w_m2", 0.0)
+            light["type"], max(0.0, light.get("power_w", 0.0)), max(0.0, light.get("irradiance_w_m2", 0.0))
         ),
     }
     if light["type"] == "spot":

@@ -32,9 +32,6 @@ def values(light):
     if node:
         color = [a * b for a, b in zip(color, sockets.constant(node.inputs["Color"]))]
         strength *= sockets.constant(node.inputs["Strength"])
-    # glTF has no dark light; issues() names it.
-    strength = max(0.0, strength)
-    color = [max(0.0, c) for c in color]
     rectangular = getattr(light, "shape", "") in {"RECTANGLE", "ELLIPSE"}
     readers = {
         "power_w": lambda: strength,
@@ -75,7 +72,5 @@ def issues(light):
         node = sockets.surface_node(light.node_tree, "OUTPUT_LIGHT")
         culprit = sockets.first_unreadable(node) if node is not None else "nothing at its output"
         yield f"light '{light.name}': its node tree is not a plain Emission ({culprit})"
-    if light.energy < 0.0 or min(light.color) < 0.0:
-        yield f"light '{light.name}': negative light"
     if light.type == "SPOT" and getattr(light, "use_square", False):
         yield f"light '{light.name}': square spot"

@@ -91,6 +91,14 @@ std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
     if (option != nullptr && s.direct_shadows == DirectShadows::hard) {
         return fmt::format("{} has no effect with hard shadows; give --direct-shadows vpl", option);
     }
+    if (o.shadow_samples && s.direct_shadows == DirectShadows::convolution) {
+        return "--shadow-samples has no effect with --direct-shadows convolution, which has one map a light";
+    }
+    if (o.convolution_order && s.direct_shadows != DirectShadows::convolution) {
+        return fmt::format(
+            "--convolution-order has no effect with --direct-shadows {}; give --direct-shadows convolution",
+            name_of(s.direct_shadows));
+    }
     return {};
 }
 

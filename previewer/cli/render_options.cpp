@@ -308,7 +308,7 @@ void RenderOptions::add_to(CLI::App& command) {
     group.one_of(
         "--direct-shadows", direct_shadows, setting_names<DirectShadows>(),
         "Shadows of lights with a size: hard, from the light's centre; vpl: soft, from many places on "
-        "it, with a shadow map each",
+        "it, with a shadow map each; convolution: soft, from one map of the centre, approximated",
         name_of(Settings{}.direct_shadows));
     group.number("--transparent-layers", transparent_layers,
                  fmt::format("Blended surfaces that a pixel shows at most, from the camera on, 0 to {}; 0: "
@@ -324,6 +324,11 @@ void RenderOptions::add_to(CLI::App& command) {
         "Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a cube's "
         "faces",
         std::to_string(Settings{}.soft_shadow_size));
+    group.number(
+        "--convolution-order", convolution_order,
+        fmt::format("Convolution shadows: terms of the Fourier series of a depth comparison, 1 to {}",
+                    k_most_convolution_order),
+        std::to_string(Settings{}.convolution_order));
     command
         .add_option("--budget-ms", budget_ms,
                     "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")
@@ -388,6 +393,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(transparent_layers, out.transparent_layers);
     set(shadow_samples, out.shadow_samples);
     set(soft_shadow_size, out.soft_shadow_size);
+    set(convolution_order, out.convolution_order);
     set(show, setting_names<Show>(), out.show);
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);

@@ -72,6 +72,7 @@ struct RenderOptions {
     std::optional<int> transparent_layers;
     std::optional<int> shadow_samples;
     std::optional<int> soft_shadow_size;
+    std::optional<int> convolution_order;
     std::optional<std::string> show;
     std::optional<int> light;
     std::optional<int> vpl;

@@ -73,22 +73,24 @@ double short_digits(float value) {
 }
 
 ordered_json settings_json(const Settings& s) {
-    ordered_json out = {
-        {"width", s.width},
-        {"height", s.height},
-        {"technique", name_of(s.technique)},
-        {"show", name_of(s.show)},
-        {"shadow_size", s.shadow_size},
-        {"antialias", s.antialias},
-        {"samples", s.samples},
-        {"world_vpls", s.world_vpls},
-        {"emitter_vpls", s.emitter_vpls},
-        {"emitter_panels", s.emitter_panels},
-        {"transparent_layers", s.transparent_layers}};
+    ordered_json out = {{"width", s.width},
+                        {"height", s.height},
+                        {"technique", name_of(s.technique)},
+                        {"show", name_of(s.show)},
+                        {"shadow_size", s.shadow_size},
+                        {"antialias", s.antialias},
+                        {"samples", s.samples},
+                        {"world_vpls", s.world_vpls},
+                        {"emitter_vpls", s.emitter_vpls},
+                        {"emitter_panels", s.emitter_panels},
+                        {"transparent_layers", s.transparent_layers}};
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl) {
         out["shadow_samples"] = s.shadow_samples;
         out["soft_shadow_size"] = s.soft_shadow_size;
+    } else if (s.direct_shadows == DirectShadows::convolution) {
+        out["soft_shadow_size"] = s.soft_shadow_size;
+        out["convolution_order"] = s.convolution_order;
     }
     if (s.technique != Technique::direct) {
         out["rsm_size"] = s.used_rsm_size();

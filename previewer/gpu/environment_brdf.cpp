@@ -55,8 +55,7 @@ glm::dvec2 environment_brdf(double n_dot_v, double roughness) {
             continue;
         }
         const double rise = fresnel_rise(v_dot_h);
-        const double weight =
-            smith(n_dot_l, alpha2) * smith(n_dot_v, alpha2) * v_dot_h / (h.z * n_dot_v);
+        const double weight = smith(n_dot_l, alpha2) * smith(n_dot_v, alpha2) * v_dot_h / (h.z * n_dot_v);
         sum += weight * glm::dvec2(1.0 - rise, rise);
     }
     return sum / static_cast<double>(k_samples);

@@ -7,9 +7,9 @@
 
 namespace bounce::gpu {
 
-// What a GGX lobe reflects of an even world: x of its reflectance at normal incidence, y of that's rise to grazing, by the
-// law of shaders/lib/brdf.glsl for an index of refraction of 1.5 (independent Smith shadowing, single scattering).
-// n_dot_v: cosine between normal and viewer.
+// What a GGX lobe reflects of an even world: x of its reflectance at normal incidence, y of that's rise to
+// grazing, by the law of shaders/lib/brdf.glsl for an index of refraction of 1.5 (independent Smith
+// shadowing, single scattering). n_dot_v: cosine between normal and viewer.
 [[nodiscard]] glm::dvec2 environment_brdf(double n_dot_v, double roughness);
 
 // The same for size x size cosines (columns) and roughnesses (rows), from 0 to 1.

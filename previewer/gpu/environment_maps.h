@@ -9,8 +9,9 @@ namespace bounce::gpu {
 
 // The world's image on the GPU (shaders/lib/environment.glsl, environment_glossy.glsl).
 struct EnvironmentMaps {
-    // Uploads the image with levels that average radiance by solid angle, and the lobes' table; `glossy` is still to be
-    // drawn (passes/environment_prefilter.h). Throws input_error where the image is too large for this OpenGL.
+    // Uploads the image with levels that average radiance by solid angle, and the lobes' table; `glossy` is
+    // still to be drawn (passes/environment_prefilter.h). Throws input_error where the image is too large for
+    // this OpenGL.
     explicit EnvironmentMaps(const scene::Environment& environment);
 
     gl::Texture image;

@@ -24,8 +24,11 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         }
         if (soft.shares.valid()) {
             builder.read(soft.shares);
-            builder.read(soft.flags);
             defines["SOFT_SHADOW"] = "1";
+        }
+        if (soft.flags.valid()) {
+            builder.read(soft.flags);
+            defines["SOFT_TILES"] = "1";
         }
         return [context, gbuffer, light, shadow_map, soft, out, defines](const PassResources& resources) {
             context.programs.compute("passes/direct_light.comp", defines).use();
@@ -38,6 +41,8 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
             }
             if (soft.shares.valid()) {
                 resources.texture(soft.shares).bind_image(IMG_IN, GL_READ_ONLY);
+            }
+            if (soft.flags.valid()) {
                 resources.buffer(soft.flags).bind_storage(SSBO_TILE_FLAGS);
             }
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);

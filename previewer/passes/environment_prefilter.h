@@ -6,7 +6,8 @@
 
 namespace bounce::passes {
 
-// Draws the levels of maps.glossy from maps.image. Once for an image: nothing of it depends on how it is turned.
+// Draws the levels of maps.glossy from maps.image. Once for an image: nothing of it depends on how it is
+// turned.
 void run_environment_prefilter(gl::ProgramCache& programs, const gpu::EnvironmentMaps& maps);
 
 }  // namespace bounce::passes

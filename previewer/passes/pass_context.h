@@ -31,6 +31,7 @@ struct SoftMaps {
     std::vector<Face> faces;                      // those that are drawn
     std::vector<gpu::UniformArena::Slot> chunks;  // ShadowViews
     bool blended_only = false;                    // the light has a hard shadow of all else
+    int convolution_order = 0;                    // more: one map, whose surroundings are convolved
     [[nodiscard]] bool empty() const { return chunks.empty(); }
 };
 

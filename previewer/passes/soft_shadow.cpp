@@ -5,16 +5,17 @@
 #include <bit>
 
 namespace bounce::passes {
-namespace {
-
-int tiles_along(int pixels) {
-    return (pixels + GROUP_2D - 1) / GROUP_2D;
-}
 
 gl::Defines soft_defines(const LightPass& light) {
     gl::Defines defines = light_defines(light);
     defines["SOFT_KIND"] = std::to_string(light.soft.map_kind);
     return defines;
+}
+
+namespace {
+
+int tiles_along(int pixels) {
+    return (pixels + GROUP_2D - 1) / GROUP_2D;
 }
 
 void declare_maps(PassBuilder& builder, const GBuffer& gbuffer, TextureHandle maps) {

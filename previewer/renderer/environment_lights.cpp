@@ -18,21 +18,23 @@ constexpr double k_pi = std::numbers::pi;
 constexpr int k_grid_width = 512;
 constexpr int k_grid_height = 256;
 
-// A source is a sun where this much of the image's light comes from within k_sun_disk and most of that from its middle.
-// Less than that leaves no shadow to be missed; each costs a light's shadow maps and reflective shadow map.
+// A source is a sun where this much of the image's light comes from within k_sun_disk and most of that from
+// its middle. Less than that leaves no shadow to be missed; each costs a light's shadow maps and reflective
+// shadow map.
 constexpr double k_sun_share = 0.04;
 constexpr double k_sun_disk = 2.5 * k_pi / 180.0;
-constexpr double k_sun_ring = 4.0 * k_pi / 180.0;  // from the disk's edge to here is what lies around it
+constexpr double k_sun_ring = 4.0 * k_pi / 180.0;    // from the disk's edge to here is what lies around it
 constexpr double k_sun_spread = 1.3 * k_pi / 180.0;  // root mean square distance of its light from its middle
 // In an image with larger texels than this a bright one is no sun but a soft patch.
 constexpr double k_sun_texel = 1.0 * k_pi / 180.0;
 constexpr int k_sun_candidates = 12;
 
-// Parts smaller than this (root mean square radius) are not cut but shared: their lights' shadow maps see no difference.
+// Parts smaller than this (root mean square radius) are not cut but shared: their lights' shadow maps see no
+// difference.
 constexpr double k_small_part = 0.05;
 
-// Of the weight that parts are cut by, what is there without light: a dark sky is cut as well, or one of its lights would
-// stand for half a sphere.
+// Of the weight that parts are cut by, what is there without light: a dark sky is cut as well, or one of its
+// lights would stand for half a sphere.
 constexpr double k_dark_weight = 0.05;
 
 double luminance(const glm::dvec3& c) {
@@ -186,7 +188,7 @@ class SunFinder {
 
 struct EnvironmentLights::Part {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    int lights = 1;       // that share it
+    int lights = 1;  // that share it
     double weight = 0.0;
     double squares = 0.0;  // mean square distance of its weight from its middle
     // What is gained by cutting: error goes with a light's part times how far it is from where it should be.
@@ -272,7 +274,8 @@ EnvironmentLights::Part EnvironmentLights::make_part(int x0, int y0, int x1, int
     return part;
 }
 
-// Cuts where the sum of what is left of weight times squares is least. False where there is nothing to be cut.
+// Cuts where the sum of what is left of weight times squares is least. False where there is nothing to be
+// cut.
 bool EnvironmentLights::cut(const Part& part, Part& first, Part& second) const {
     double least = 1e300;
     const auto consider = [&](const Part& a, const Part& b) {
@@ -336,9 +339,8 @@ std::vector<EnvironmentRegion> EnvironmentLights::regions(int count) const {
         }
         const Part& part = node.part;
         const Sums s = sums(part.x0, part.y0, part.x1, part.y1);
-        const glm::dvec3 moment = s.luminance > 0.0 && glm::length(s.light_moment) > 1e-9 * s.luminance
-                                      ? s.light_moment
-                                      : s.moment;
+        const glm::dvec3 moment =
+            s.luminance > 0.0 && glm::length(s.light_moment) > 1e-9 * s.luminance ? s.light_moment : s.moment;
         const double length = glm::length(moment);
         EnvironmentRegion region;
         region.from = length > 0.0 ? moment / length
@@ -387,11 +389,11 @@ std::vector<gpu::GpuVpl> environment_vpls(const EnvironmentLights& environment,
             of.solid_angle = k_pi * 0.25 * suns[sun].angle_rad * suns[sun].angle_rad;
             weight = luminance(suns[sun].irradiance) * per_light / static_cast<double>(shared);
         }
-        const double turn =
-            2.0 * k_pi * scene::sobol_point(static_cast<uint32_t>(i), k_world_lights_seed).z;
+        const double turn = 2.0 * k_pi * scene::sobol_point(static_cast<uint32_t>(i), k_world_lights_seed).z;
         // The map turns with the image, so that nothing but the light moves over its texels.
-        gpu::GpuVpl light = distant_light(render_from_environment * -of.from,
-                                          render_from_environment * turned_tangent(-of.from, turn), i, layout, maps);
+        gpu::GpuVpl light =
+            distant_light(render_from_environment * -of.from,
+                          render_from_environment * turned_tangent(-of.from, turn), i, layout, maps);
         light.position.w = static_cast<float>(of.solid_angle);
         light.intensity = glm::vec4(glm::vec3(of.irradiance * strength), 0.0F);
         light.incident.w = static_cast<float>(weight);

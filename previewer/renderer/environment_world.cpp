@@ -34,9 +34,8 @@ scene::Pose EnvironmentWorld::with_suns(const scene::Pose& pose) const {
         // It looks along its -Z.
         const glm::dvec3 z = turn * sun.from;
         const glm::dvec3 other = turn * turned_tangent(sun.from, 0.0);
-        instance.world_from_light =
-            glm::dmat4(glm::dmat3(glm::normalize(glm::cross(other, z)),
-                                  glm::cross(z, glm::normalize(glm::cross(other, z))), z));
+        instance.world_from_light = glm::dmat4(glm::dmat3(
+            glm::normalize(glm::cross(other, z)), glm::cross(z, glm::normalize(glm::cross(other, z))), z));
         out.lights.push_back(light);
         out.light_instances.push_back(instance);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An image of the world as the renderer needs it: its lights and its textures, made when they are first asked for.
+// An image of the world as the renderer needs it: its lights and its textures, made when they are first asked
+// for.
 #pragma once
 
 #include <memory>

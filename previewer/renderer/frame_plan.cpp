@@ -24,10 +24,19 @@ bool is_dark(const glm::vec3& color) {
     return !(std::max({color.r, color.g, color.b}) > 0.0F);
 }
 
-// Radiant power or irradiance is nothing.
-bool sends_light(const scene::Light& light) {
-    const float strength = light.type == scene::LightType::sun ? light.irradiance_w_m2 : light.power_w;
-    return strength > 0.0F && !is_dark(light.color);
+// Radiant power, W, or irradiance, W/m^2, times colour. Cycles takes light away where it is below 0.
+glm::vec3 strength(const scene::Light& light) {
+    return light.color * (light.type == scene::LightType::sun ? light.irradiance_w_m2 : light.power_w);
+}
+
+// Whether it has power, and a surface to send it from: to Cycles an area light without one is dark.
+bool sends_light(const scene::LightInstance& instance, const scene::Light& light) {
+    const bool flat = light.type == scene::LightType::area &&
+                      !(static_cast<double>(light.size_x_m) * static_cast<double>(light.size_y_m) *
+                            glm::length(glm::dvec3(instance.world_from_light[0])) *
+                            glm::length(glm::dvec3(instance.world_from_light[1])) >
+                        0.0);
+    return strength(light) != glm::vec3(0.0F) && !flat;
 }
 
 bool deforms(const scene::Scene& scene, const scene::DrawInstance& draw) {
@@ -86,17 +95,26 @@ bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& l
             fmt::format("light {}: drawn with a hard shadow in spite of its size, as asked for", light.name));
         return leave_out("hard shadows were asked for");
     }
+    if (settings.direct_shadows == DirectShadows::convolution) {
+        plan.approximations.push_back(
+            fmt::format("light {}: its soft shadow is convolved from one map of its centre", light.name));
+    }
     return true;
 }
 
 void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight* sight, FramePlan& plan) {
     for (size_t i = 0; i < pose.light_instances.size(); ++i) {
         const scene::Light& light = pose.lights[at(pose.light_instances[i].light)];
-        if (!sends_light(light)) {
+        if (!sends_light(pose.light_instances[i], light)) {
             plan.left_out.push_back({"light: " + light.name, "it sends no light in this frame"});
             continue;
         }
         plan.lights.push_back(static_cast<int>(i));
+        plan.takes_light.push_back(glm::any(glm::lessThan(strength(light), glm::vec3(0.0F))));
+        if (plan.takes_light.back() && plan.indirect) {
+            plan.approximations.push_back(
+                fmt::format("light {}: takes light away, but not bounced light", light.name));
+        }
         plan.shadows.push_back(light.cast_shadow && plan.direct);
         if (plan.direct && !light.cast_shadow) {
             plan.left_out.push_back({"shadow map: " + light.name, "the light casts no shadow"});
@@ -104,13 +122,13 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
         plan.soft.push_back(plan.shadows.back() &&
                             throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
         plan.veiled.push_back(plan.blends && plan.shadows.back() && !plan.soft.back() &&
-                              settings.direct_shadows == DirectShadows::vpl);
+                              settings.direct_shadows != DirectShadows::hard);
         if (light.type == scene::LightType::area && plan.indirect) {
             plan.approximations.push_back(
                 fmt::format("area light {}: its bounce is taken from its centre", light.name));
         }
     }
-    if (plan.lights.empty()) {
+    if (std::find(plan.takes_light.begin(), plan.takes_light.end(), false) == plan.takes_light.end()) {
         leave_out_bounces(plan, k_no_light);
     }
 }

@@ -8,6 +8,7 @@
 #include "passes/antialias.h"
 #include "passes/classic_maps.h"
 #include "passes/composite.h"
+#include "passes/convolution_shadow.h"
 #include "passes/direct_light.h"
 #include "passes/emitter_lights.h"
 #include "passes/gbuffer.h"
@@ -52,8 +53,10 @@ struct ShadowMaps {
 TextureHandle add_light_of(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                            const passes::LightPass& light, const ShadowMaps& maps, TextureHandle sum) {
     using namespace passes;
-    const SoftShadow penumbra =
-        maps.soft.valid() ? add_soft_shadow(graph, in.context, gbuffer, light, maps.soft) : SoftShadow{};
+    const SoftShadow penumbra = !maps.soft.valid() ? SoftShadow{}
+                                : light.soft.convolution_order > 0
+                                    ? add_convolution_shadow(graph, in.context, gbuffer, light, maps.soft)
+                                    : add_soft_shadow(graph, in.context, gbuffer, light, maps.soft);
     return add_direct_light(graph, in.context, gbuffer, light, maps.hard, penumbra, sum);
 }
 
@@ -447,7 +450,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             shadows[i].soft = !light.soft.empty() ? add_soft_maps(graph, context, light) : TextureHandle{};
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }
-        if (in.plan.indirect) {
+        if (in.plan.indirect && !in.plan.takes_light[i]) {
             gather.sources.push_back(
                 {light, add_rsm(graph, context, light), in.gather_frames[i], in.patterns[i]});
         }

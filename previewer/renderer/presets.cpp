@@ -50,7 +50,7 @@ Settings preset_settings(Preset preset) {
             out.shading = Shading::deferred;
             out.soft_shadow_size = 512;
             out.interleave = 1;
-            out.world_vpls = 0;  // the paper has no light from all around
+            out.world_vpls = 0;                         // the paper has no light from all around
             out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces
             out.near_field = false;
             out.glossy_bounces = false;

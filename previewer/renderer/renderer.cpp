@@ -149,7 +149,8 @@ passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) 
     }
     for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
         gpu::ShadowViews chunk{};
-        std::copy_n(&setup.views[first], SHADOW_VIEW_CHUNK, chunk.view);
+        std::copy_n(&setup.views[first], std::min<size_t>(SHADOW_VIEW_CHUNK, setup.views.size() - first),
+                    chunk.view);
         out.chunks.push_back(uniforms.add(chunk));
     }
     return out;
@@ -348,8 +349,9 @@ FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, co
     return render_lit(pose, view, settings, timing, before, pose.light_instances.size());
 }
 
-FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& view, const Settings& settings,
-                                 gl::TimingMode timing, const Moment* before, size_t own_lights) {
+FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& view,
+                                 const Settings& settings, gl::TimingMode timing, const Moment* before,
+                                 size_t own_lights) {
     FrameReport report;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
@@ -423,19 +425,21 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
-        pass.flux_w = setup.flux_w;
+        pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
         if (plan.soft[i] || plan.veiled[i]) {
+            const bool convolved = plan.soft[i] && settings.direct_shadows == DirectShadows::convolution;
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
                                    gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
-                                   settings.shadow_samples, settings.soft_shadow_size),
+                                   convolved ? 1 : settings.shadow_samples, settings.soft_shadow_size),
                 uniforms_);
             pass.soft.blended_only = plan.veiled[i];
+            pass.soft.convolution_order = convolved ? settings.convolution_order : 0;
         }
         lights.push_back(pass);
-        fluxes.push_back(setup.flux_w);
+        fluxes.push_back(pass.flux_w);
     }
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report);

@@ -43,7 +43,8 @@ const std::map<std::string, MapProjection>& setting_names<MapProjection>() {
 template <>
 const std::map<std::string, DirectShadows>& setting_names<DirectShadows>() {
     static const std::map<std::string, DirectShadows> names = {{"hard", DirectShadows::hard},
-                                                               {"vpl", DirectShadows::vpl}};
+                                                               {"vpl", DirectShadows::vpl},
+                                                               {"convolution", DirectShadows::convolution}};
     return names;
 }
 

@@ -30,8 +30,9 @@ enum class Shading {
 
 // How lights with a size throw shadows.
 enum class DirectShadows {
-    hard,  // from their centres
-    vpl,   // from many places on them, a map each
+    hard,         // from their centres
+    vpl,          // from many places on them, a map each
+    convolution,  // from one map of the centre, filtered as wide as its blockers make the penumbra
 };
 
 using Splat = passes::Splat;
@@ -136,6 +137,7 @@ struct Settings {
     DirectShadows direct_shadows = DirectShadows::vpl;
     int shadow_samples = 64;     // places on a light, a power of two
     int soft_shadow_size = 512;  // of the map at each; a cube's faces have half of it
+    int convolution_order = 4;   // terms of the Fourier series, as in the paper
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait

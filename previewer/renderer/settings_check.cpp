@@ -121,13 +121,20 @@ std::string settings_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
-           map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
-           map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
-           out_of("--transparent-layers", s.transparent_layers, 0, k_most_transparent_layers, "give a number"),
-           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
-           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
-           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
-           out_of("--emitter-panels", s.emitter_panels, 0, k_most_emitter_panels, "give a number"), ism_refusal(s),
+          map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
+          map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
+          out_of("--transparent-layers", s.transparent_layers, 0, k_most_transparent_layers, "give a number"),
+          out_of("--convolution-order", s.convolution_order, 1, k_most_convolution_order, "give a number"),
+          s.direct_shadows == DirectShadows::convolution && s.soft_shadow_size > k_most_convolution_size
+              ? fmt::format(
+                    "--soft-shadow-size is {}; with --direct-shadows convolution it may be {} at most",
+                    s.soft_shadow_size, k_most_convolution_size)
+              : std::string(),
+          out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
+          out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
+          out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
+          out_of("--emitter-panels", s.emitter_panels, 0, k_most_emitter_panels, "give a number"),
+          ism_refusal(s),
           s.shown_bounce == 0 ? std::string()
                               : out_of("--bounce", s.shown_bounce, 1, s.bounces, "bounces are counted")}) {
         if (!refusal.empty()) {
@@ -152,7 +159,7 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
     if (refusal.empty()) {
         refusal = too_large("--shadow-size", settings.shadow_size);
     }
-    if (refusal.empty() && settings.direct_shadows == DirectShadows::vpl) {
+    if (refusal.empty() && settings.direct_shadows != DirectShadows::hard) {
         refusal = too_large("--soft-shadow-size", settings.soft_shadow_size);
     }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;

@@ -23,6 +23,9 @@ constexpr int k_most_samples = 4096;
 constexpr int k_most_transparent_layers = 16;  // each costs a picture
 constexpr int k_least_shadow_samples = 8;      // SHADOW_VIEW_CHUNK
 constexpr int k_most_shadow_samples = 256;     // six layers each of the 2,048 that OpenGL 4.5 promises
+// Of the series of a convolution; its maps hold order + 1 or 2 layers of four floats a texel.
+constexpr int k_most_convolution_order = 16;
+constexpr int k_most_convolution_size = 2048;  // sums of more texels are too coarse for a float
 constexpr int k_least_map_size = 2;
 constexpr int k_most_map_size = 16384;
 

@@ -23,6 +23,9 @@ constexpr double k_widest_tangent = 2.0;
 // Room around what is seen, texels: offsets within a pixel and a texel must stay inside.
 constexpr double k_room_texels = 2.0;
 
+// A map that is filtered holds more than what is seen: what filters reach, but at most this part of it.
+constexpr double k_most_reach = 0.25;
+
 // Nearer to the light's plane than this, render units, a receiver is beside the light.
 constexpr double k_least_depth = 1e-7;
 
@@ -38,6 +41,11 @@ struct Window {
     void add(const glm::dvec2& p) {
         low = glm::min(low, p);
         high = glm::max(high, p);
+    }
+    void widen(const glm::dvec2& reach) {
+        const glm::dvec2 by = glm::min(reach, (high - low) * k_most_reach);
+        low -= by;
+        high += by;
     }
     [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
     // A window of nothing is as good as any.
@@ -66,6 +74,9 @@ Basis basis_towards(const glm::dvec3& direction) {
 
 // Places on the light relative to its middle, render space.
 std::vector<glm::dvec3> offsets(const LightSetup& setup, const scene::Light& light, int samples) {
+    if (samples == 1) {
+        return {glm::dvec3(0.0)};
+    }
     const bool area = light.type == scene::LightType::area;
     const bool round = setup.gpu.map.w > 0.5F;
     const SampleShape shape = !area ? SampleShape::ball : round ? SampleShape::disk : SampleShape::square;
@@ -150,7 +161,7 @@ gpu::GpuShadowView perspective_view(const Basis& basis, const glm::dvec3& origin
 
 // Along basis.z + slant.x basis.x + slant.y basis.y; near: the least depth of all the scene.
 gpu::GpuShadowView slanted_view(const Basis& basis, const glm::dvec2& slant, double near, double range,
-                                const std::vector<Region>& receivers, int size) {
+                                const std::vector<Region>& receivers, int size, double reach) {
     const glm::dvec3 across_x = basis.x - slant.x * basis.z;
     const glm::dvec3 across_y = basis.y - slant.y * basis.z;
     const glm::dvec3 begin = near * basis.z;
@@ -159,6 +170,9 @@ gpu::GpuShadowView slanted_view(const Basis& basis, const glm::dvec2& slant, dou
         for (const glm::dvec3& p : region) {
             window.add({glm::dot(across_x, p - begin), glm::dot(across_y, p - begin)});
         }
+    }
+    if (!window.empty()) {
+        window.widen(glm::dvec2(reach));
     }
     window = window.with_room(size, 1e-5);
     const glm::dvec2 half = 0.5 * (window.high - window.low);
@@ -189,9 +203,15 @@ void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Regio
     }
     // As for the hard shadow's map: rounding cuts nothing off, and a flat scene keeps a volume.
     const double room = std::max(0.005 * (far - near), 1e-4);
+    const double range = far - near + 2.0 * room;
+    if (samples == 1) {
+        out.views.push_back(
+            slanted_view(basis, glm::dvec2(0.0), near - room, range, receivers, out.size, tangent * range));
+        return;
+    }
     for (const glm::dvec3& p : light_samples(SampleShape::disk, samples)) {
-        out.views.push_back(slanted_view(basis, tangent * glm::dvec2(p), near - room, far - near + 2.0 * room,
-                                         receivers, out.size));
+        out.views.push_back(
+            slanted_view(basis, tangent * glm::dvec2(p), near - room, range, receivers, out.size, 0.0));
     }
 }
 
@@ -271,7 +291,10 @@ SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
         const std::vector<Region> lit = before(basis, middle, receivers);
         for (const glm::dvec3& offset : offsets(setup, light, samples)) {
             const glm::dvec3 origin = middle + offset;
-            const Window window = seen_from(basis, origin, lit, std::min(widest, 2.0 * k_widest_tangent));
+            Window window = seen_from(basis, origin, lit, std::min(widest, 2.0 * k_widest_tangent));
+            if (samples == 1 && !window.empty()) {
+                window.widen(window.high - window.low);
+            }
             out.views.push_back(perspective_view(basis, origin, window.with_room(size, 1e-4), near));
         }
     } else {
@@ -294,7 +317,8 @@ SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
             out.views.push_back(view);
         }
     }
-    const std::vector<glm::dvec2> receiver = receiver_offsets(samples);
+    const std::vector<glm::dvec2> receiver =
+        samples == 1 ? std::vector<glm::dvec2>{glm::dvec2(0.0)} : receiver_offsets(samples);
     for (size_t i = 0; i < out.views.size(); ++i) {
         set_offset(out.views[i], receiver[i], out.size);
         if (out.map_kind != MAP_CUBE) {

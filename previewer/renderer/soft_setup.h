@@ -28,7 +28,8 @@ struct SoftSetup {
 // Maps that hold what lies between the light and the receivers, fitted to them: `samples` of them, a power of
 // two and a multiple of SHADOW_VIEW_CHUNK, each `size` texels a side (a cube's faces have half of it). One
 // picture is enough where all receivers are seen within it; a light among them takes a cube. all: around the
-// whole scene.
+// whole scene. One sample is the light's middle, whose map reaches somewhat beyond what receivers see in it:
+// for the convolution of its surroundings.
 [[nodiscard]] SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
                                            const std::vector<Region>& receivers, const gpu::DrawBox& all,
                                            int samples, int size);

@@ -99,8 +99,12 @@ void technique_section(ViewState& state, PanelResult& result) {
                            settings.emitter_vpls, "none");
     changed |= choose_size("emissive panels", std::array{0, 1, 2, 4, 8, 16}, settings.emitter_panels, "none");
     changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
-    changed |= choose("shadows", std::array{"hard", "soft"}, settings.direct_shadows);
-    if (settings.direct_shadows == DirectShadows::vpl) {
+    changed |= choose("shadows", std::array{"hard", "soft", "convolution"}, settings.direct_shadows);
+    if (settings.direct_shadows == DirectShadows::convolution) {
+        changed |= ImGui::SliderInt("order", &settings.convolution_order, 1, k_most_convolution_order);
+        changed |=
+            choose_size("soft map size", std::array{128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
+    } else if (settings.direct_shadows == DirectShadows::vpl) {
         changed |=
             choose_size("shadow samples", std::array{8, 16, 32, 64, 128, 256}, settings.shadow_samples);
         changed |=

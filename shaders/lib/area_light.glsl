@@ -113,7 +113,7 @@ vec3 area_light(Surface s, vec3 v) {
     // The grid is right far away; near the light the polygon is, and floats can tell its edges apart.
     vec3 middle = light.position.xyz - s.position;
     float near = dot(light.area.xy, light.area.xy) / max(dot(middle, middle), 1e-20);
-    if (near > 1e-3 && lambert > 0.0 && dot(middle, light.axis.xyz) < 0.0) {
+    if (near > 1e-3 && lambert > 0.0 && weight > 0.0 && dot(middle, light.axis.xyz) < 0.0) {
         float area = (round_ ? PI : 4.0) * light.area.x * light.area.y;
         diffuse *= polygon_irradiance(s.position, s.normal, part) / (area * weight * lambert);
     }

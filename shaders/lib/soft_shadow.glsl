@@ -46,9 +46,16 @@ vec2 view_share(GpuShadowView view, int index, SoftReceiver r) {
     to_light *= inversesqrt(squared);
 #endif
     float weight = max(dot(r.normal, to_light), 0.0);
+#if PROFILE != PROFILE_UNIFORM
+    vec3 from_light = -light_vector_from_render(to_light);
+    float profile = light_profile(from_light);
 #if PROFILE == PROFILE_AREA
-    weight *= light_profile(-vec3(dot(to_light, light.tangent.xyz), dot(to_light, light.bitangent.xyz),
-                                  dot(to_light, light.axis.xyz))) / squared;
+    // A narrow spread may miss every place; then the one that looks nearest to its direction tells.
+    float out_ = light.area.z * length(from_light.xy) / max(from_light.z, 1e-3);
+    profile += light.area.z > 0.0 && from_light.z > 0.0 ? 1e-5 / (1.0 + out_ * out_ * out_ * out_) : 0.0;
+    weight /= squared;
+#endif
+    weight *= profile;
 #endif
     vec2 pixel = vec2(view.to_s.w, view.to_t.w);
     vec3 p = r.position + r.right * pixel.x + r.up * pixel.y - view.origin.xyz;

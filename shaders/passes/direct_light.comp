@@ -9,21 +9,31 @@
 #include "lib/shadow.glsl"
 #endif
 
+// Places on a light's disk that its spot's profile is averaged over: a hard rim is drawn in steps as fine as that.
+const int RIM_PLACES = 64;
+const float GOLDEN_ANGLE = 2.39996323;
+
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(binding = IMG_OUT, rgba32f) uniform image2D direct_image;
 
 #ifdef SOFT_SHADOW
-// What passes/soft_probe.comp and soft_penumbra.comp found out.
+// What passes/soft_probe.comp and soft_penumbra.comp, or convolution_shadow.comp, found out.
 layout(binding = IMG_IN, rg32f) readonly uniform image2D share_image;
+#ifdef SOFT_TILES
 layout(std430, binding = SSBO_TILE_FLAGS) readonly buffer FlagBlock {
     uint flags[];
 };
+#endif
 
 float soft_visibility(ivec2 pixel) {
+#ifndef SOFT_TILES
+    return imageLoad(share_image, pixel).r;
+#else
     ivec2 tile = pixel / GROUP_2D;
     uint seen = flags[tile.y * ((frame.size.x + GROUP_2D - 1) / GROUP_2D) + tile.x];
     vec2 share = imageLoad(share_image, pixel).rg;
     return seen != 3u ? (seen == 2u ? 0.0 : 1.0) : share.y > 0.0 ? share.x / share.y : 1.0;
+#endif
 }
 #endif
 
@@ -72,6 +82,30 @@ vec3 reflected(Surface s, vec3 l, vec3 v, float tangent) {
 }
 #endif
 
+#if PROFILE != PROFILE_AREA && MAP_KIND != MAP_ORTHOGRAPHIC
+// A profile's mean over the disk that a light with a radius shows a receiver; the middle's where it has none. It softens the
+// rim of a spot's cone. l: from the receiver to the light.
+float facing_disk_profile(vec3 position, vec3 l) {
+#if PROFILE == PROFILE_UNIFORM
+    return light_profile(normalize(light_from_render(position)));
+#else
+    vec3 x = normalize(abs(l.x) < 0.7 ? cross(l, vec3(1.0, 0.0, 0.0)) : cross(l, vec3(0.0, 1.0, 0.0)));
+    vec3 y = cross(l, x);
+    float radius = sqrt(light.intensity.w);
+    int places = radius > 0.0 ? RIM_PLACES : 1;
+    float sum = 0.0;
+    for (int i = 0; i < places; ++i) {
+        // Of even density: Vogel 1979, "A Better Way to Construct the Sunflower Head".
+        float angle = GOLDEN_ANGLE * float(i);
+        float out_ = radius * sqrt((float(i) + 0.5) / float(places));
+        vec3 place = (x * cos(angle) + y * sin(angle)) * out_;
+        sum += light_profile(normalize(light_from_render(position - place)));
+    }
+    return sum / float(places);
+#endif
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, frame.size.xy))) {
@@ -95,14 +129,14 @@ void main() {
 #if PROFILE == PROFILE_AREA
         vec3 radiance = area_light(s, v);
 #else
-        float profile = light_profile(normalize(light_from_render(s.position)));
+        float profile = facing_disk_profile(s.position, l);
         // A light with a radius is a disk that faces the point: on its axis that adds r^2 to d^2.
         float tangent = sqrt(light.intensity.w / squared);
         vec3 radiance =
             light.intensity.rgb * (profile / (squared + light.intensity.w)) * reflected(s, l, v, tangent);
 #endif
 #endif
-        if (max(max(radiance.r, radiance.g), radiance.b) > 0.0) {
+        if (any(notEqual(radiance, vec3(0.0)))) {
 #ifdef SHADOW
             vec3 normal = geometric_normal(pixel);
             // Of a pixel that several frames share, each smooths its own part.

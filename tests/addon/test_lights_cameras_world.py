@@ -143,5 +143,4 @@ def test_unsupported(scene):
         ("Scene", "motion blur"),
         ("Main camera", "depth of field"),
         ("IES", "light 'IES': its node tree is not a plain Emission (Strength comes from IES Texture)"),
-        ("Dark", "light 'Dark': negative light"),
     }

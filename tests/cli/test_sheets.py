@@ -35,3 +35,18 @@ def test_a_displacement_is_found(binary, tmp_path):
 def test_views_are_blenders(binary, tmp_path):
     done = sheet("view_sheet", tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+LIGHTS = ["point-hard", "spot-large-narrow", "area-disk", "negative-power-sun", "zero-size-area"]
+
+
+def test_lights_are_blenders(binary, tmp_path):
+    done = sheet("light_sheet", tmp_path, "--samples", "32", "--only", *LIGHTS)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "sheet.png").stat().st_size > 0
+
+
+def test_a_wrong_light_is_found(binary, tmp_path):
+    """Direct light's layer of bounced light alone is black."""
+    done = sheet("light_sheet", tmp_path, "--samples", "4", "--only", LIGHTS[0], "--", "--technique", "ism", "--show", "indirect")
+    assert done.returncode == 1, done.stdout + done.stderr

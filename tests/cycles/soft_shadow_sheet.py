@@ -13,11 +13,12 @@ from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / folder) for folder in ("examples", "examples/sheets")]
 import common  # noqa: E402
+import light_stage  # noqa: E402
+from light_stage import ABOVE, ASIDE, TARGET  # noqa: E402
 
-ABOVE, ASIDE = (-1.2, 0.9, 3.2), (-3.0, 1.5, 3.6)
-TARGET = (0.0, 0.0, 0.3)
 # type, place, watts (sun: W/m2), settings.
 LIGHTS = {
     "point-small": ("POINT", ABOVE, 250.0, {"shadow_soft_size": 0.05}),
@@ -37,20 +38,10 @@ LIGHTS = {
 
 
 def build(name):
-    common.new_scene(f"Soft shadow of {name}")
-    common.set_world((0.0, 0.0, 0.0))
-    grey = common.diffuse("Grey", (0.7, 0.7, 0.7))
-    red = common.diffuse("Red", (0.7, 0.3, 0.2))
-    common.quad("Floor", [(-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)], grey)
-    common.box("Post", (0.12, 0.12, 1.6), (-0.1, 0.35, 0.8), red)
-    common.lathe("Sphere", [(0.3 * math.sin(math.pi * i / 24), 0.3 - 0.3 * math.cos(math.pi * i / 24))
-                            for i in range(25)], 48, grey, (0.7, -0.3, 0.0))
-    common.box("Slab", (0.7, 0.5, 0.04), (-0.7, -0.5, 0.55), grey)
-    common.box("Leg", (0.05, 0.05, 0.53), (-0.95, -0.5, 0.265), red)
+    light_stage.build(f"Soft shadow of {name}")
     kind, place, energy, settings = LIGHTS[name]
     light = common.add_light(name, kind, place, energy, **settings)
     common.look_at(light, TARGET)
-    common.add_camera((0.6, -3.6, 2.2), (0.1, 0.1, 0.3), 35.0)
 
 
 def main():

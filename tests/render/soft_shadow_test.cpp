@@ -256,5 +256,78 @@ TEST_F(SoftShadows, APenumbraTooNarrowToBeSeenIsDrawnAsAHardShadow) {
     EXPECT_THAT(got.report.executed, Not(Contains(HasSubstr("soft"))));
 }
 
+// Convolution shadow maps are an estimate: a lit surface must stay lit, an umbra dark, and the penumbra lie
+// where it should.
+class ConvolutionShadows : public SoftShadows {
+  protected:
+    static Settings convolved() {
+        Settings s = settings();
+        s.direct_shadows = DirectShadows::convolution;
+        return s;
+    }
+};
+
+TEST_F(ConvolutionShadows, AHalfPlaneHidesAboutItsPartOfALight) {
+    for (const auto type :
+         {scene::LightType::point, scene::LightType::spot, scene::LightType::sun, scene::LightType::area}) {
+        scene::Light light = light_of(type);
+        light.radius_m = 0.3F;
+        light.angle_rad = static_cast<float>(12.0 * pi / 180.0);
+        light.size_x_m = light.size_y_m = 0.6F;
+        glm::dmat4 at = overhead();
+        if (type == scene::LightType::sun) {
+            at = glm::rotate(glm::dmat4(1.0), -0.4, glm::dvec3(0.0, 1.0, 0.0));
+        }
+        const CameraView camera = camera_from_above(k_width, 10.0);
+        const Rendered got = draw(scene_with(light, at, true), camera, convolved());
+        const Rendered want = draw(scene_with(light, at, true), camera, settings());
+        const Rendered lit = draw(scene_with(light, at, false), camera, settings());
+        EXPECT_THAT(got.report.executed, Contains("convolution sums: light"));
+        EXPECT_THAT(got.report.executed, Not(Contains("soft shadow probe: light")));
+        double sum = 0.0;
+        for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+            const double off =
+                (got.at(x, k_pixels / 2).x - want.at(x, k_pixels / 2).x) / lit.at(x, k_pixels / 2).x;
+            ASSERT_TRUE(std::isfinite(off));
+            // Half of a penumbra is the most that a wrong width costs; a hard shadow's edge is off by as much
+            // as 0.5.
+            EXPECT_NEAR(off, 0.0, 0.35) << "type " << static_cast<int>(type) << ", pixel " << x;
+            sum += off;
+        }
+        EXPECT_NEAR(sum / (0.5 * k_pixels), 0.0, 0.04) << static_cast<int>(type);
+    }
+}
+
+TEST_F(ConvolutionShadows, ASurfaceHardlyShadowsItself) {
+    for (const auto type :
+         {scene::LightType::spot, scene::LightType::point, scene::LightType::sun, scene::LightType::area}) {
+        for (const double degrees : {0.0, 40.0}) {
+            scene::Light light = light_of(type);
+            light.radius_m = 0.2F;
+            light.angle_rad = 0.1F;
+            light.size_x_m = light.size_y_m = 0.3F;
+            const glm::dmat4 tilted =
+                glm::rotate(glm::dmat4(1.0), degrees * pi / 180.0, glm::dvec3(0.0, 1.0, 0.0));
+            const glm::dmat4 at = glm::translate(tilted, glm::dvec3(0.0, 0.0, 3.0));
+            const CameraView camera = camera_from_above(4.0, 10.0);
+            const Rendered got = draw(scene_with(light, at, false), camera, convolved());
+            light.cast_shadow = false;
+            const Rendered lit = draw(scene_with(light, at, false), camera, convolved());
+            EXPECT_GT(lit.mean(), 0.0);
+            // What the series rings on a slope that a filter sees cut off by its map's edge.
+            EXPECT_NEAR(got.mean() / lit.mean(), 1.0, 0.01) << static_cast<int>(type) << " at " << degrees;
+        }
+    }
+}
+
+TEST_F(ConvolutionShadows, ALightWithoutSizeIsDrawnAsWithoutThem) {
+    const scene::Light light = light_of(scene::LightType::spot);
+    const CameraView camera = camera_from_above(k_width, 10.0);
+    const Rendered expected = draw(scene_with(light, overhead(), true), camera, settings());
+    const Rendered got = draw(scene_with(light, overhead(), true), camera, convolved());
+    EXPECT_EQ(got.image.rgb, expected.image.rgb);
+    EXPECT_EQ(got.report.executed, expected.report.executed);
+}
+
 }  // namespace
 }  // namespace bounce::test

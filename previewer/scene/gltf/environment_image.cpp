@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-// A radiance beyond this times a texel's solid angle and a few thousand texels still fits in a float; the brightest sun
-// in an image is 1e9 of the sky.
+// A radiance beyond this times a texel's solid angle and a few thousand texels still fits in a float; the
+// brightest sun in an image is 1e9 of the sky.
 constexpr float k_most_radiance = 1e12F;
 
 // The name under which OpenImageIO picks its reader.

@@ -52,6 +52,15 @@ TEST(OptionConflicts, HardShadowsHaveNoPlacesOnTheLight) {
     EXPECT_EQ(conflict(places, {}), "");
 }
 
+TEST(OptionConflicts, AConvolutionHasAnOrderAndOneMap) {
+    const auto places = [](RenderOptions& o) { o.shadow_samples = 32; };
+    const auto order = [](RenderOptions& o) { o.convolution_order = 8; };
+    const Settings convolution{.direct_shadows = DirectShadows::convolution};
+    EXPECT_THAT(conflict(places, convolution), HasSubstr("one map a light"));
+    EXPECT_EQ(conflict(order, convolution), "");
+    EXPECT_THAT(conflict(order, {}), AllOf(HasSubstr("--convolution-order"), HasSubstr("vpl")));
+}
+
 TEST(OptionConflicts, PresetAndTechniqueBothChooseTheTechnique) {
     const auto both = [](RenderOptions& o) {
         o.preset = "ism2008";

@@ -155,10 +155,9 @@ TEST_F(FramePlanTest, DarkLightsAreLeftOutByName) {
     add_light("Off", scene::LightType::point).power_w = 0.0F;
     add_light("Night", scene::LightType::sun).irradiance_w_m2 = 0.0F;
     add_light("Black", scene::LightType::area).color = glm::vec3(0.0F);
-    add_light("Negative", scene::LightType::point).power_w = -5.0F;
     const FramePlan p = plan();
     EXPECT_EQ(p.lights, std::vector<int>{0});
-    for (const char* name : {"light: Off", "light: Night", "light: Black", "light: Negative"}) {
+    for (const char* name : {"light: Off", "light: Night", "light: Black"}) {
         EXPECT_THAT(reason(p, name), HasSubstr("sends no light")) << name;
     }
 }
@@ -490,7 +489,8 @@ TEST_F(FramePlanTest, SaysWhereThePictureDiffersFromCycles) {
     EXPECT_TRUE(plan().approximations.empty()) << "no shadow is drawn";
     settings_.show = Show::shaded;
     scene_.lights[0].radius_m = 0.0F;
-    add_light("Panel", scene::LightType::area);
+    scene::Light& panel = add_light("Panel", scene::LightType::area);
+    panel.size_x_m = panel.size_y_m = 1.0F;
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("area light Panel")));
     scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
     scene_.materials[0].base_color.a = 0.5F;
@@ -558,6 +558,36 @@ TEST_F(FramePlanTest, ALightWithoutShadowHasNoPenumbra) {
     scene_.lights[0].cast_shadow = false;
     EXPECT_EQ(plan().soft, std::vector<bool>{false});
     EXPECT_THAT(plan().approximations, Not(Contains(HasSubstr("hard shadow"))));
+}
+
+TEST_F(FramePlanTest, AConvolvedShadowIsNamedAndHardLightsHaveNone) {
+    settings_.direct_shadows = DirectShadows::convolution;
+    EXPECT_TRUE(plan().approximations.empty()) << "a light without size";
+    EXPECT_EQ(plan().soft, std::vector<bool>{false});
+    scene_.lights[0].radius_m = 0.1F;
+    EXPECT_EQ(plan().soft, std::vector<bool>{true});
+    EXPECT_THAT(plan().approximations, Contains(HasSubstr("light Key: its soft shadow is convolved")));
+}
+
+TEST_F(FramePlanTest, ALightBelowZeroTakesDirectLightAlone) {
+    scene_.lights[0].power_w = -5.0F;
+    const FramePlan p = plan();
+    EXPECT_EQ(p.lights, std::vector<int>{0});
+    EXPECT_EQ(p.takes_light, std::vector<bool>{true});
+    EXPECT_FALSE(p.indirect);
+    EXPECT_THAT(p.approximations, Contains(HasSubstr("takes light away")));
+    scene_.lights[0].power_w = 5.0F;
+    EXPECT_EQ(plan().takes_light, std::vector<bool>{false});
+}
+
+TEST_F(FramePlanTest, AnAreaLightWithoutAreaSendsNoLight) {
+    scene::Light& panel = add_light("Panel", scene::LightType::area);
+    panel.size_x_m = 1.0F;
+    panel.size_y_m = 0.0F;
+    EXPECT_EQ(plan().lights.size(), 1U);
+    EXPECT_THAT(reason(plan(), "light: Panel"), HasSubstr("no light"));
+    scene_.lights.back().size_y_m = 1.0F;
+    EXPECT_EQ(plan().lights.size(), 2U);
 }
 
 }  // namespace

@@ -102,6 +102,12 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--transparent-layers", 0, 16, [](Settings& s, int v) { s.transparent_layers = v; });
     expect_range("--shadow-samples", 8, 256, [](Settings& s, int v) { s.shadow_samples = v; });
     EXPECT_THAT(refusal([](Settings& s) { s.shadow_samples = 48; }), HasSubstr("power of two"));
+    expect_range("--convolution-order", 1, 16, [](Settings& s, int v) { s.convolution_order = v; });
+    const auto convolved = [](Settings& s) {
+        s.direct_shadows = DirectShadows::convolution;
+        s.soft_shadow_size = 4096;
+    };
+    EXPECT_THAT(refusal(convolved), HasSubstr("2048 at most"));
     expect_range("--soft-shadow-size", 2, 16384, [](Settings& s, int v) { s.soft_shadow_size = v; });
     EXPECT_THAT(refusal([](Settings& s) { s.rsm_size = 1; }), HasSubstr("--rsm-size is 1"));
     EXPECT_EQ(refusal([](Settings& s) { s.rsm_size = 0; }), "") << "automatic";
