@@ -27,7 +27,7 @@ def test_a_sequence_has_the_figures_of_compare(bounce, room, tmp_path):
     results = json.loads((tmp_path / "report/results.json").read_text(encoding="utf-8"))
     assert results["sequence"] == {"step": 1, "motion": True}
     points = [(curve["name"], point) for curve in results["curves"] for point in curve["points"]]
-    assert len(points) == 3
+    assert len(points) == 4
     assert all(point["sequence"]["flicker_power"] > 0 and point["sequence"]["tid"] > 0 for _, point in points)
     assert all(point["flip_hdr"] > 0 for _, point in points), "so small that all of them have it"
 

@@ -107,9 +107,6 @@ Outcome render_at_two_times(const scene::Scene& scene) {
     return outcome;
 }
 
-// Lit by emissive surfaces alone, of which none is in view; emission is seen but lights nothing yet.
-const std::set<std::string> k_black = {"veach-bidir.glb", "CornellBox-Original.glb"};
-
 // One-sided surfaces that face down, seen from above.
 const std::set<std::string> k_unseen = {"22_vertex_color.gltf"};
 
@@ -133,7 +130,7 @@ TEST_P(Assets, LoadAndAreSeen) {
             const Outcome outcome = render_at_two_times(loaded.scene);
             EXPECT_EQ(outcome.coverage > 20, !k_unseen.contains(name))
                 << outcome.coverage << " pixels show a surface";
-            EXPECT_EQ(outcome.black, k_black.contains(name));
+            EXPECT_FALSE(outcome.black);
         } catch (const Error& error) {
             if (refused == k_refused.end()) {
                 ADD_FAILURE() << error.what();
