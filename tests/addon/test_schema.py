@@ -17,7 +17,7 @@ def test_exports_are_valid(built, name):
 @pytest.mark.parametrize("spoil", [
     lambda root: root.pop("frames"),
     lambda root: root.update(surplus=1),
-    lambda root: root["lights"][0].update(power_w=-1.0),
+    lambda root: root["lights"][0].update(radius_m=-1.0),
     lambda root: root["lights"][0].update(type="laser"),
     lambda root: root["lights"][0].update(spread_rad=1.0),
     lambda root: root["world"].update(color=[1.0, 2.0]),
