@@ -17,6 +17,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         if (first) defines["FIRST_LIGHT"] = "1";
         if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
         if (context.scene.has_specular() && light.glossy) defines["SPECULAR"] = "1";
+        if (light.sized) defines["SIZED"] = "1";
         if (shadow_map.valid()) {
             builder.read(shadow_map);
             builder.read(gbuffer.geometric_normal);

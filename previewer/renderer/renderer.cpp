@@ -425,6 +425,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
+        pass.sized = setup.gpu.intensity.w > 0.0F || setup.gpu.cone.w > 0.0F;
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();

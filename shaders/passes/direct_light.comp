@@ -40,6 +40,7 @@ float soft_visibility(ivec2 pixel) {
 // Mean cosine over a disk of directions around one with the cosine n_dot_l, where what is under the horizon counts
 // nothing; tangent: of half the disk's angle. The cosine itself where the horizon does not cut the disk.
 float mean_cosine(float n_dot_l, float tangent) {
+#ifdef SIZED
     float slope = tangent * sqrt(max(1.0 - n_dot_l * n_dot_l, 0.0));
     if (slope <= abs(n_dot_l)) {
         return max(n_dot_l, 0.0);
@@ -48,6 +49,9 @@ float mean_cosine(float n_dot_l, float tangent) {
     float a = n_dot_l / slope;
     float root = sqrt(max(1.0 - a * a, 0.0));
     return max(n_dot_l * (acos(-a) + a * root) / PI + slope * root * root * root * (2.0 / (3.0 * PI)), 0.0);
+#else
+    return max(n_dot_l, 0.0);
+#endif
 }
 
 // Radiance towards v for irradiance 1 W/m^2 on a plane across l, from a disk of directions around it.
@@ -86,22 +90,21 @@ vec3 reflected(Surface s, vec3 l, vec3 v, float tangent) {
 // A profile's mean over the disk that a light with a radius shows a receiver; the middle's where it has none. It softens the
 // rim of a spot's cone. l: from the receiver to the light.
 float facing_disk_profile(vec3 position, vec3 l) {
-#if PROFILE == PROFILE_UNIFORM
+#if PROFILE == PROFILE_UNIFORM || !defined(SIZED)
     return light_profile(normalize(light_from_render(position)));
 #else
     vec3 x = normalize(abs(l.x) < 0.7 ? cross(l, vec3(1.0, 0.0, 0.0)) : cross(l, vec3(0.0, 1.0, 0.0)));
     vec3 y = cross(l, x);
     float radius = sqrt(light.intensity.w);
-    int places = radius > 0.0 ? RIM_PLACES : 1;
     float sum = 0.0;
-    for (int i = 0; i < places; ++i) {
+    for (int i = 0; i < RIM_PLACES; ++i) {
         // Of even density: Vogel 1979, "A Better Way to Construct the Sunflower Head".
         float angle = GOLDEN_ANGLE * float(i);
-        float out_ = radius * sqrt((float(i) + 0.5) / float(places));
+        float out_ = radius * sqrt((float(i) + 0.5) / float(RIM_PLACES));
         vec3 place = (x * cos(angle) + y * sin(angle)) * out_;
         sum += light_profile(normalize(light_from_render(position - place)));
     }
-    return sum / float(places);
+    return sum / float(RIM_PLACES);
 #endif
 }
 #endif
