@@ -51,6 +51,10 @@ Settings small_settings() {
     settings.rsm_samples = 16;
     settings.rsm_size = 64;
     settings.shadow_size = 256;
+    // Whether files load and are seen takes few lights; how many are enough is measured elsewhere.
+    settings.world_vpls = settings.emitter_vpls = settings.vpls = 32;
+    settings.shadow_samples = 8;
+    settings.soft_shadow_size = 128;
     return settings;
 }
 
