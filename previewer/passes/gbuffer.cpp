@@ -3,22 +3,10 @@
 
 #include <array>
 
+#include "gl/sample_query.h"
+
 namespace bounce::passes {
 namespace {
-
-// Whether a single sample of what is drawn passes the depth test; waits for the GPU.
-template <typename Draw>
-bool draws_samples(const Draw& draw) {
-    GLuint query = 0;
-    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &query);
-    glBeginQuery(GL_ANY_SAMPLES_PASSED, query);
-    draw();
-    glEndQuery(GL_ANY_SAMPLES_PASSED);
-    GLuint any = 0;
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &any);
-    glDeleteQueries(1, &query);
-    return any != 0;
-}
 
 GBuffer add(FrameGraph& graph, const PassContext& context, const View& camera, gpu::Geometry geometry,
             bool* anything_seen) {
@@ -59,7 +47,7 @@ GBuffer add(FrameGraph& graph, const PassContext& context, const View& camera, g
                            "passes/gbuffer.frag", {}, geometry);
             };
             if (anything_seen != nullptr) {
-                *anything_seen = draws_samples(draw);
+                *anything_seen = gl::count_samples(GL_ANY_SAMPLES_PASSED, draw) != 0;
             } else {
                 draw();
             }

@@ -5,25 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "gl/sample_query.h"
+
 namespace bounce::passes {
 namespace {
 
 gl::TextureDesc picture_desc(const PassContext& context, GLenum format) {
     return {.format = format, .width = context.width, .height = context.height};
-}
-
-// Calls draw() and returns what the query counts meanwhile; waits for the GPU.
-template <typename Draw>
-GLuint counted(GLenum what, const Draw& draw) {
-    GLuint query = 0;
-    glCreateQueries(what, 1, &query);
-    glBeginQuery(what, query);
-    draw();
-    glEndQuery(what);
-    GLuint result = 0;
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &result);
-    glDeleteQueries(1, &query);
-    return result;
 }
 
 void clear_depth(const gl::Framebuffer& framebuffer, float depth) {
@@ -79,7 +67,7 @@ PeeledLayer add_peeled_layer(FrameGraph& graph, const PassContext& context, cons
             resources.texture(solid.depth).bind(TEX_DEPTH);
             resources.texture(behind).bind(TEX_PEELED_DEPTH);
             *out.any =
-                counted(GL_ANY_SAMPLES_PASSED, [&] {
+                gl::count_samples(GL_ANY_SAMPLES_PASSED, [&] {
                     draw_scene(context, camera,
                                emission ? DrawKind::peeled_surface_with_emission : DrawKind::peeled_surface,
                                "passes/gbuffer.frag", {});
@@ -108,7 +96,7 @@ void count_unpeeled(FrameGraph& graph, const PassContext& context, const View& c
             };
             // Once to find the nearest of them, then how many pixels show one.
             draw();
-            *result = static_cast<int>(counted(GL_SAMPLES_PASSED, [&] {
+            *result = static_cast<int>(gl::count_samples(GL_SAMPLES_PASSED, [&] {
                 glDepthFunc(GL_EQUAL);
                 draw();
                 glDepthFunc(GL_GREATER);
