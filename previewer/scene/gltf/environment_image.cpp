@@ -8,6 +8,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "scene/gltf/images.h"
 #include "scene/gltf/uri.h"
 
 namespace bounce::scene::gltf {
@@ -46,16 +47,7 @@ Environment decode(Source& source, std::span<const uint8_t> bytes, const std::st
         throw refusal("{} cannot be decoded: {}", whose, OIIO::geterror());
     }
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.width > k_max_image_side ||
-        spec.height > k_max_image_side) {
-        throw refusal("{} is {} by {} pixels; at most {} a side are allowed", whose, spec.width, spec.height,
-                      k_max_image_side);
-    }
-    const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-    if (pixels > k_max_image_pixels) {
-        throw refusal("{} has {} pixels, more than the {} allowed", whose, pixels, k_max_image_pixels);
-    }
-    Source::spend(source.spent.image_pixels, pixels, k_max_total_image_pixels, "pixels in all its images");
+    const uint64_t pixels = spend_pixels(source, spec.width, spec.height, spec.nchannels, whose);
     Environment out;
     out.width = spec.width;
     out.height = spec.height;

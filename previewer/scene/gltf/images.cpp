@@ -84,16 +84,7 @@ Image decode(Source& source, std::span<const uint8_t> bytes, const std::string& 
         throw refusal("{} cannot be decoded: {}", whose, OIIO::geterror());
     }
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.width > k_max_image_side ||
-        spec.height > k_max_image_side) {
-        throw refusal("{} is {} by {} pixels; at most {} a side are allowed", whose, spec.width, spec.height,
-                      k_max_image_side);
-    }
-    const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-    if (pixels > k_max_image_pixels) {
-        throw refusal("{} has {} pixels, more than the {} allowed", whose, pixels, k_max_image_pixels);
-    }
-    Source::spend(source.spent.image_pixels, pixels, k_max_total_image_pixels, "pixels in all its images");
+    (void)spend_pixels(source, spec.width, spec.height, spec.nchannels, whose);
     Image image;
     image.width = spec.width;
     image.height = spec.height;
@@ -118,6 +109,19 @@ bool is_opaque(const Image& image) {
 }
 
 }  // namespace
+
+uint64_t spend_pixels(Source& source, int width, int height, int channels, const std::string& whose) {
+    if (width <= 0 || height <= 0 || channels <= 0 || width > k_max_image_side || height > k_max_image_side) {
+        throw refusal("{} is {} by {} pixels; at most {} a side are allowed", whose, width, height,
+                      k_max_image_side);
+    }
+    const uint64_t pixels = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    if (pixels > k_max_image_pixels) {
+        throw refusal("{} has {} pixels, more than the {} allowed", whose, pixels, k_max_image_pixels);
+    }
+    Source::spend(source.spent.image_pixels, pixels, k_max_total_image_pixels, "pixels in all its images");
+    return pixels;
+}
 
 Image read_image(Source& source, Buffers& buffers, int index) {
     const nlohmann::json& description = source.json()["images"][static_cast<size_t>(index)];
