@@ -370,7 +370,7 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(const std::vector
         maps.slope_bias = of.splat != passes::Splat::disks;
         const double mean_radius =
             std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * points)) * gpu_scene_.space().scale;
-        gpu::IsmUniforms uniforms = ism_uniforms(layout, of, points_->occluders(), mean_radius);
+        gpu::IsmUniforms uniforms = imperfect_uniforms(layout, of, points_->occluders(), mean_radius);
         if (points_->occluders() == 0) {  // all surfaces are large triangles
             maps.set.points_a_map = uniforms.atlas.w = 0;
         }

@@ -6,6 +6,7 @@
 
 #include "lib/gbuffer.glsl"
 #include "lib/receiver_plane.glsl"
+#include "lib/shadow.glsl"
 #ifdef IMPERFECT
 #include "lib/imperfect_shadow.glsl"
 #else
