@@ -200,7 +200,6 @@ gpu::IsmUniforms imperfect_uniforms(const IsmLayout& layout, const Settings& set
     gpu::IsmUniforms out = ism_uniforms(layout, settings, occluders, mean_radius);
     if (settings.splat == Splat::disks) {
         out.splat.x *= static_cast<float>(k_wider_disks * k_wider_disks);
-        out.splat.y /= static_cast<float>(k_wider_disks);  // as far back as those
     }
     return out;
 }
