@@ -99,6 +99,11 @@ bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& l
         plan.approximations.push_back(
             fmt::format("light {}: its soft shadow is convolved from one map of its centre", light.name));
     }
+    if (settings.direct_shadows == DirectShadows::ism) {
+        plan.imperfect_shadows = true;
+        plan.approximations.push_back(
+            fmt::format("light {}: its soft shadow is of imperfect maps, drawn from points", light.name));
+    }
     return true;
 }
 

@@ -15,7 +15,18 @@ layout(std430, binding = SSBO_DISPATCH) readonly buffer DispatchBlock {
 };
 layout(binding = IMG_OUT, rg32f) uniform image2D share_image;  // light that arrives, and that would without a shadow
 
+#ifdef IMPERFECT
+// As in passes/vpl_gather.comp: outside of branches constant places in shared memory are scalar loads on every driver.
+shared GpuVpl places[SHADOW_VIEW_CHUNK];
+#endif
+
 void main() {
+#ifdef IMPERFECT
+    if (gl_LocalInvocationIndex < uint(SHADOW_VIEW_CHUNK)) {
+        places[gl_LocalInvocationIndex] = vpls[first + int(gl_LocalInvocationIndex)];
+    }
+    barrier();
+#endif
     uint group = gl_WorkGroupID.y * uint(MOST_GROUPS) + gl_WorkGroupID.x;
     if (group >= dispatch.w) {
         return;
@@ -25,7 +36,11 @@ void main() {
     SoftReceiver r;
     soft_receiver(min(pixel, frame.size.xy - 1), r);
     vec2 sum = vec2(0.0);
+#ifdef IMPERFECT
+#define VIEW(i) sum += place_share(places[i], r);
+#else
 #define VIEW(i) sum += view_share(shadow_views.view[i], first + i, r);
+#endif
     VIEW(0) VIEW(1) VIEW(2) VIEW(3) VIEW(4) VIEW(5) VIEW(6) VIEW(7)
     if (all(lessThan(pixel, frame.size.xy))) {
 #ifndef FIRST_CHUNK
