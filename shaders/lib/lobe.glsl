@@ -38,7 +38,8 @@ struct Lobe {
     vec3 across;
     vec3 axis;
     float widths;   // determinant of the inverse
-    vec3 albedo;    // of an even world
+    float albedo;   // what it reflects of an even world, for a reflectance of 1
+    vec3 fresnel;   // reflectance, the mean over the lobe
 };
 
 struct Reflected {
@@ -76,8 +77,9 @@ Lobe fitted_lobe(Surface s, vec3 v) {
     lobe.across = y * c;
     lobe.axis = x * sin_psi + s.normal * cos_psi;
     lobe.widths = p * c;
-    vec3 f0 = specular_f0(s);
-    lobe.albedo = f0 * part.x + (s.specular > 0.0 || s.metallic > 0.0 ? part.y : 0.0);
+    lobe.albedo = part.x + part.y;
+    vec3 sum = specular_f0(s) * part.x + (s.specular > 0.0 || s.metallic > 0.0 ? part.y : 0.0);
+    lobe.fresnel = sum / lobe.albedo;
     return lobe;
 }
 
@@ -100,9 +102,17 @@ vec3 edge_vector(vec3 a, vec3 b) {
     return s > 0.0 ? normal * (angle / s) : vec3(0.0);
 }
 
-// Vector irradiance, over pi, from radiance 1 of the polygon's part above z = 0: along z the share of a clamped cosine
-// that it fills.
-vec3 vector_irradiance(vec3 middle, vec3 x, vec3 y, bool round_) {
+float cosine_of(vec3 d) {
+    return d.z * inversesqrt(max(dot(d, d), 1e-30));
+}
+
+// What a polygon's part above z = 0 is to a clamped cosine.
+struct Filled {
+    float share;
+    vec3 toward;  // unit: the mean direction, weighed by the cosine
+};
+
+Filled filled_cosine(vec3 middle, vec3 x, vec3 y, bool round_) {
     int corners = round_ ? ELLIPSE_CORNERS : 4;
     float turn = 2.0 * PI / float(corners);
     mat2 turned = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
@@ -112,6 +122,8 @@ vec3 vector_irradiance(vec3 middle, vec3 x, vec3 y, bool round_) {
     vec3 leaving = vec3(0.0);
     vec3 entering = vec3(0.0);
     vec3 a = first;
+    float lowest = cosine_of(first);
+    float highest = lowest;
     for (int i = 1; i <= corners; ++i) {
         at = turned * at;
         vec3 b = i == corners ? first : middle + at.x * x + at.y * y;
@@ -122,10 +134,23 @@ vec3 vector_irradiance(vec3 middle, vec3 x, vec3 y, bool round_) {
         entering = enters ? cut : entering;
         sum += max(a.z, b.z) >= 0.0 ? edge_vector(enters ? cut : a, leaves ? cut : b) : vec3(0.0);
         a = b;
+        lowest = min(lowest, cosine_of(b));
+        highest = max(highest, cosine_of(b));
     }
     // A convex polygon crosses the horizon twice or not at all; the horizon itself closes it.
     sum += edge_vector(leaving, entering);
-    return sum * ((sum.z < 0.0 ? -0.5 : 0.5) / PI);
+    sum *= (sum.z < 0.0 ? -0.5 : 0.5) / PI;
+
+    // The vector's direction is the mean without the cosine. With it the mean height is the mean square over the mean; the
+    // variance is that of heights even between the lowest and the highest corner.
+    Filled out_;
+    out_.share = clamp(sum.z, 0.0, 1.0);
+    vec3 mean = safe_normalize(sum, vec3(0.0, 0.0, 1.0));
+    float between = max(highest, 0.0) - max(lowest, 0.0);
+    float z = min(mean.z + between * between / (12.0 * max(mean.z, 1e-6)), max(highest, mean.z));
+    float flat_ = sqrt(max(1.0 - z * z, 0.0) / max(1.0 - mean.z * mean.z, 1e-12));
+    out_.toward = vec3(mean.xy * flat_, z);
+    return out_;
 }
 
 Reflected reflected_flat_light(Surface s, vec3 v, FlatLight flat_) {
@@ -142,26 +167,24 @@ Reflected reflected_flat_light(Surface s, vec3 v, FlatLight flat_) {
     float size = sqrt(max(dot(x, x), dot(y, y)) / max(dot(middle, middle), 1e-30));
     float polygon = smoothstep(LOBE_POINT_SIZE.x, LOBE_POINT_SIZE.y, size);
 
-    // The share that the light fills of the cosine, and what one per steradian of this is worth: of a light that fills
-    // little what the lobe itself has in the middle of the light, so that it stands for the fit's errors; of one that
-    // fills all the lobe's own sum.
-    vec3 irradiance = vector_irradiance(middle, x, y, flat_.round_);
-    float share = clamp(irradiance.z, 0.0, 1.0);
-    float long_ = max(length(irradiance), 1e-30);
-    vec3 mean = lobe.in_plane * irradiance.x + lobe.across * irradiance.y + lobe.axis * irradiance.z;
-    float stretch = length(mean) / long_;
-    float density = irradiance.z / long_ * stretch * stretch * stretch / (PI * lobe.widths);
-    mean = safe_normalize(mean, s.normal);
-    bool fills = share > 0.0 && density > 1e-20;
-
-    bool is_polygon = polygon > 0.0;
-    vec3 value = specular_times_cosine(s, is_polygon && fills ? mean : toward, v);
-    vec3 worth = mix(value / (fills ? density : 1.0), lobe.albedo, share);
+    // As a polygon: the share that it fills of the cosine, and what that is worth. The fit is held against the law in the
+    // mean direction of what is reflected; but where the light fills much of the lobe the lobe's own sums are right. The
+    // exponents are those with the least error in tests/shaders/lobe_test.cpp.
+    Filled filled = filled_cosine(middle, x, y, flat_.round_);
+    vec3 mean = lobe.in_plane * filled.toward.x + lobe.across * filled.toward.y + lobe.axis * filled.toward.z;
+    float stretch = length(mean);
+    float density = filled.toward.z * stretch * stretch * stretch / (PI * lobe.widths);
+    bool fills = polygon > 0.0 && filled.share > 0.0 && density > 1e-20;
+    toward = fills ? safe_normalize(mean, s.normal) : toward;
+    float law = ggx_times_cosine(s, toward, v);
+    vec3 fresnel = specular_fresnel(s, toward, v);
+    float worth = mix(law / (fills ? density : 1.0), lobe.albedo, sqrt(sqrt(filled.share)));
+    vec3 filled_radiance = (filled.share * worth) * mix(fresnel, lobe.fresnel, filled.share * filled.share);
 
     Reflected out_;
-    out_.toward = is_polygon && fills ? mean : toward;
-    out_.share = polygon * share;
-    out_.radiance = mix(value * solid_angle, fills ? worth * share : vec3(0.0), polygon);
+    out_.toward = toward;
+    out_.share = polygon * filled.share;
+    out_.radiance = mix(fresnel * (law * solid_angle), fills ? filled_radiance : vec3(0.0), polygon);
     return out_;
 }
 
