@@ -184,7 +184,8 @@ Reflected reflected_flat_light(Surface s, vec3 v, FlatLight flat_) {
     Reflected out_;
     out_.toward = toward;
     out_.share = polygon * filled.share;
-    out_.radiance = mix(fresnel * (law * solid_angle), fills ? filled_radiance : vec3(0.0), polygon);
+    // Not by mix(): a large light near by is as a point a number in which the other is lost.
+    out_.radiance = fresnel * (law * solid_angle * (1.0 - polygon)) + (fills ? filled_radiance * polygon : vec3(0.0));
     return out_;
 }
 

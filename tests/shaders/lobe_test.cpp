@@ -2,8 +2,6 @@
 //
 // Lobes of flat lights against sums over the lights in doubles.
 #include <algorithm>
-#include <cstdio>
-#include <map>
 
 #include "gpu/environment_brdf.h"
 #include "gpu/lobe_table.h"
@@ -144,71 +142,154 @@ class LobeGlsl : public ShaderTest {
     }
 };
 
-TEST_F(LobeGlsl, Explore) {
-    std::vector<Case> cases;
-    std::vector<std::string> names;
-    for (const double roughness : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
-        for (const double view : {0.0, 40.0, 65.0, 80.0}) {
-            for (const double size : {0.02, 0.1, 0.4, 1.5}) {
-                for (const double off : {0.0, 10.0, 25.0, -60.0}) {
-                    for (const int kind : {0, 1}) {
-                        const double a = -view - off;
-                        cases.push_back({{.roughness = roughness, .metallic = kind == 0 ? 1.0 : 0.0},
-                                         at_angle(view),
-                                         facing(at_angle(a, 0.1), size, kind == 0 ? size : 0.3 * size, kind == 1)});
-                        names.push_back("r " + std::to_string(roughness) + " view " + std::to_string(view) +
-                                        " size " + std::to_string(size) + " off " + std::to_string(off) +
-                                        " kind " + std::to_string(kind));
+TEST_F(LobeGlsl, StoredFitsAreWhatTheFitterFinds) {
+    // The simplex stops within 1e-9 of the least error, where the widths have moved by less than 1e-3 and the file's
+    // digits end at 1e-4.
+    for (const int row : {0, 1, 5, 10, 16, 23, 31}) {
+        for (const int column : {0, 9, 20, 30}) {
+            const double cosine = gpu::lobe_column_cosine(column);
+            const double roughness = gpu::lobe_row_roughness(row);
+            // From elsewhere than fit_lobes starts.
+            const gpu::LobeFit fit = gpu::fit_lobe(cosine, roughness, {1.5, 1.5 * cosine + 0.1, 0.0}).fit;
+            const gpu::LobeFit stored = gpu::stored_lobe(column, row);
+            EXPECT_NEAR(stored.in_plane, fit.in_plane, 4e-3) << row << ' ' << column;
+            EXPECT_NEAR(stored.across, fit.across, 4e-3) << row << ' ' << column;
+            EXPECT_NEAR(stored.sin_shift, fit.sin_shift, 1e-3) << row << ' ' << column;
+        }
+    }
+}
+
+TEST_F(LobeGlsl, AFitIsADensityAndNearItsLobe) {
+    // (f - g)^2 / (f + g), integrated: 0.01 is a difference of a tenth all over. Lobes that graze are no cosines.
+    const gpu::FittedLobe above = gpu::fit_lobe(std::cos(0.5), 0.4, {2.0, 2.0, 0.0});
+    EXPECT_LT(above.error, 0.012);
+    EXPECT_LT(gpu::fit_lobe(1.0, 0.1, {2.0, 2.0, 0.0}).error, 1e-4);
+    EXPECT_LT(gpu::fit_lobe(std::cos(1.3), 1.0, {2.0, 2.0, 0.0}).error, 1e-3);
+    double sum = 0.0;
+    constexpr int rings = 600;
+    for (int i = 0; i < rings; ++i) {
+        for (int j = 0; j < rings; ++j) {
+            const double z = (i + 0.5) / rings;
+            const double phi = 2.0 * pi * (j + 0.5) / rings;
+            const double r = std::sqrt(1.0 - z * z);
+            sum += gpu::lobe_density(above.fit, std::cos(0.5), 0.4, {r * std::cos(phi), r * std::sin(phi), z});
+        }
+    }
+    EXPECT_NEAR(sum * 2.0 * pi / (rings * rings), 1.0, 1e-3);
+}
+
+// Differences as parts of what the lobe reflects of an even world, which is what a picture shows them against.
+TEST_F(LobeGlsl, FlatLightsAgainstSumsOverThem) {
+    for (const double metallic : {1.0, 0.0}) {
+        std::vector<Case> cases;
+        for (const double roughness : {0.1, 0.3, 0.5, 0.75, 1.0}) {
+            for (const double view : {0.0, 40.0, 65.0, 80.0}) {
+                for (const double size : {0.02, 0.1, 0.4, 1.5}) {
+                    for (const double off : {0.0, 10.0, 25.0, -60.0}) {
+                        const bool round = off == 10.0 || off == -60.0;
+                        cases.push_back(
+                            {{.roughness = roughness, .metallic = metallic},
+                             at_angle(view),
+                             facing(at_angle(-view - off, 0.1), size, round ? 0.3 * size : size, round)});
                     }
                 }
+            }
+        }
+        const std::vector<Found> found = shaded(cases);
+        double mean = 0.0;
+        for (size_t i = 0; i < cases.size(); ++i) {
+            const Case& c = cases[i];
+            const glm::dvec2 part = gpu::environment_brdf(c.v.z, c.material.roughness);
+            const double albedo = (metallic > 0.0 ? 1.0 : 0.04) * part.x + part.y;
+            const double off = (found[i].radiance - reflected_sum(c.material, c.v, c.light, 120)) / albedo;
+            mean += std::abs(off) / static_cast<double>(cases.size());
+            // Measured: metals 0.055 and 0.0036, dielectrics 0.125 and 0.0082. Worst are views of 80 degrees and
+            // lights that stand on the horizon; a dielectric's reflectance rises there, which the fit does not know.
+            EXPECT_LT(std::abs(off), metallic > 0.0 ? 0.07 : 0.15)
+                << "roughness " << c.material.roughness << ", view " << std::acos(c.v.z) * 180.0 / pi
+                << " degrees, light " << glm::length(c.light.x) << " towards " << c.light.middle.x << ' '
+                << c.light.middle.z;
+        }
+        EXPECT_LT(mean, metallic > 0.0 ? 0.005 : 0.01);
+    }
+}
+
+TEST_F(LobeGlsl, SmallDisksAreTheLightsTheyWereWithoutASize) {
+    // Half angles from a millionth of a degree to sixty. Where the light has become a polygon, what its fit has wrong
+    // shows (measured: 2.9 % at roughness 0.5). Below, floats: 1e-4.
+    for (const double roughness : {0.2, 0.5, 1.0}) {
+        std::vector<Case> cases;
+        std::vector<double> tangents;
+        for (double tangent = 1e-8; tangent < 1.8; tangent *= 1.5) {
+            tangents.push_back(tangent);
+            cases.push_back({{.roughness = roughness}, at_angle(30.0),
+                             facing(at_angle(-33.0, 0.02), tangent, tangent, true)});
+        }
+        const std::vector<Found> found = shaded(cases);
+        for (size_t i = 0; i < cases.size(); ++i) {
+            const double size = tangents[i];
+            const double want = size < 1e-5 ? law(cases[i].material, cases[i].v, cases[i].light.middle) * pi *
+                                                  size * size
+                                            : reflected_sum(cases[i].material, cases[i].v, cases[i].light, 120);
+            EXPECT_NEAR(found[i].radiance / want, 1.0, size < 1e-4 ? 2e-4 : 0.035)
+                << "roughness " << roughness << ", tangent " << size;
+        }
+    }
+}
+
+TEST_F(LobeGlsl, ALightAllOverTheSkyGivesTheLobesAlbedo) {
+    std::vector<Case> cases;
+    for (const double roughness : {0.0, 0.1, 0.4, 0.7, 1.0}) {
+        for (const double view : {0.0, 30.0, 60.0, 80.0, 88.0}) {
+            for (const double metallic : {0.0, 1.0}) {
+                cases.push_back({{.roughness = roughness, .metallic = metallic},
+                                 at_angle(view, 1.0),
+                                 {{0.0, 0.0, 1.0}, {1e5, 0.0, 0.0}, {0.0, 1e5, 0.0}}});
             }
         }
     }
     const std::vector<Found> found = shaded(cases);
     for (size_t i = 0; i < cases.size(); ++i) {
-        const double want = reflected_sum(cases[i].material, cases[i].v, cases[i].light, 250);
-        double a = 0; 
         const Material& m = cases[i].material;
-        const double f0 = m.metallic * m.base + (1.0 - m.metallic) * 0.08 * m.specular;
         const glm::dvec2 part = gpu::environment_brdf(cases[i].v.z, m.roughness);
-        a = f0 * part.x + part.y;
-        static std::map<std::pair<double,double>, gpu::LobeFit> fits;
-        const double view = std::acos(cases[i].v.z);
-        if (!fits.count({view, m.roughness})) fits[{view, m.roughness}] = gpu::fit_lobe(cases[i].v.z, m.roughness, {2.0, 2.0*cases[i].v.z, 0.0}).fit;
-        const gpu::LobeFit fit = fits[{view, m.roughness}];
-        const auto g = [&](const glm::dvec3& l) { return l.z <= 0.0 ? 0.0 : gpu::lobe_density(fit, cases[i].v.z, m.roughness, glm::dvec3(-l.x, -l.y, l.z)); };
-        const auto grid = [&](int side) { double sf = 0, sg = 0; for (int q = 0; q < side*side; ++q) {
-            glm::dvec2 u((q % side + 0.5)/side, (q / side + 0.5)/side);
-            const Flat& light = cases[i].light;
-            double ang = 2*pi*(u.y + 0.5*u.x);
-            glm::dvec2 at = light.round ? std::sqrt(u.x)*glm::dvec2(std::cos(ang), std::sin(ang)) : 2.0*u - 1.0;
-            glm::dvec3 d = light.middle + at.x*light.x + at.y*light.y; double sq = glm::dot(d,d); glm::dvec3 l = d/std::sqrt(sq);
-            double w = std::abs(glm::dot(glm::cross(light.x, light.y), l))/sq;
-            sf += w*law(m, cases[i].v, l); sg += w*g(l); }
-            return glm::dvec2(sf, sg); };
-        const auto g2 = grid(2), g3 = grid(3), g4 = grid(4);
-        const double psi = view + std::asin(fit.sin_shift), al = std::max(m.roughness*m.roughness, 1e-3);
-        const double P = fit.in_plane*al, C = fit.across*al;
-        const auto mapped = [&](const glm::dvec3& l) { return glm::normalize(glm::dvec3((std::cos(psi)*-l.x - std::sin(psi)*l.z)/P, -l.y/C, l.z/std::cos(psi))); };
-        const auto back = [&](const glm::dvec3& o) { glm::dvec3 q(P/std::cos(psi)*o.x + std::sin(psi)*o.z, C*o.y, std::cos(psi)*o.z); q = glm::normalize(q); return glm::dvec3(-q.x, -q.y, q.z); };
-        glm::dvec3 mean(0.0), mean1(0.0); double zmin = 1, zmax = 0;
-        for (int q = 0; q < 200*200; ++q) { glm::dvec2 u((q % 200 + 0.5)/200, (q / 200 + 0.5)/200);
-            const Flat& light = cases[i].light;
-            glm::dvec2 at = light.round ? std::sqrt(u.x)*glm::dvec2(std::cos(2*pi*u.y), std::sin(2*pi*u.y)) : 2.0*u - 1.0;
-            glm::dvec3 d = light.middle + at.x*light.x + at.y*light.y; double sq = glm::dot(d,d); glm::dvec3 l = d/std::sqrt(sq);
-            if (l.z <= 0) continue;
-            double w = std::abs(glm::dot(glm::cross(light.x, light.y), l))/sq*g(l);
-            const glm::dvec3 o = mapped(l);
-            mean += w*o; mean1 += w/o.z*o; zmin = std::min(zmin, o.z); zmax = std::max(zmax, o.z); }
-        if (mean.z <= 0) mean = mean1 = glm::dvec3(0,0,1);
-        const glm::dvec3 tc = back(mean); 
-        glm::dvec3 m1 = glm::normalize(mean1); double z2 = std::min(m1.z + (zmax-zmin)*(zmax-zmin)/(12*m1.z), 1.0);
-        const double k2 = std::sqrt((1-z2*z2)/std::max(1-m1.z*m1.z,1e-12));
-        const glm::dvec3 ta = back({m1.x*k2, m1.y*k2, z2});
-        const glm::dvec3 t = found[i].toward;
-        std::printf("EX %s want %.6g got %.6g rel %.4f share %.5f ofalbedo %.5f A %.5g F %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g %.5g\n", names[i].c_str(), want, found[i].radiance,
-                    found[i].radiance / want - 1.0, found[i].share, (found[i].radiance - want) / a, a,
-                    law(m, cases[i].v, t), g(t), g2.x, g2.y, g3.x, g3.y, g4.x, g4.y, law(m, cases[i].v, tc), g(tc), law(m, cases[i].v, ta), g(ta), law({.roughness = m.roughness}, cases[i].v, ta), part.x + part.y);
+        const double albedo = (m.metallic > 0.0 ? 1.0 : 0.04) * part.x + part.y;
+        EXPECT_NEAR(found[i].share, 1.0, 1e-3);
+        // Between the table's columns, where the reflectance of dielectrics rises steeply at last.
+        EXPECT_NEAR(found[i].radiance / albedo, 1.0, cases[i].v.z < 0.1 ? 0.07 : 0.02)
+            << "roughness " << m.roughness << ", view " << cases[i].v.z << ", metallic " << m.metallic;
+    }
+}
+
+TEST_F(LobeGlsl, NothingComesFromUnderTheHorizonAndNumbersStayFinite) {
+    std::vector<Case> cases;
+    for (const double roughness : {0.0, 0.03, 0.5, 1.0}) {
+        for (const double view : {0.0, 1e-4, 60.0, 89.9, 90.0, 95.0}) {
+            for (const double size : {0.0, 1e-20, 1e-7, 0.3, 1e5}) {
+                for (const double light : {0.0, -60.0, -90.0, 90.0}) {
+                    cases.push_back({{.roughness = roughness},
+                                     at_angle(view),
+                                     facing(at_angle(light), size, size, view == 60.0)});
+                }
+                cases.push_back({{.roughness = roughness},
+                                 at_angle(view),
+                                 {{0.0, 0.0, 0.0}, {size, 0.0, 0.0}, {0.0, size, 0.0}}});
+            }
+        }
+    }
+    const size_t finite = cases.size();
+    for (const double view : {0.0, 45.0, 85.0}) {
+        cases.push_back({{}, at_angle(view), {{0.2, 0.0, -0.5}, {3.0, 0.0, 0.1}, {0.0, 3.0, 0.0}, true}});
+        cases.push_back({{}, at_angle(view), facing(at_angle(120.0), 0.4, 0.4, false)});
+    }
+    const std::vector<Found> found = shaded(cases);
+    for (size_t i = 0; i < cases.size(); ++i) {
+        EXPECT_TRUE(std::isfinite(found[i].radiance)) << i;
+        EXPECT_TRUE(std::isfinite(glm::dot(found[i].toward, found[i].toward))) << i;
+        EXPECT_GE(found[i].radiance, 0.0) << i;
+        EXPECT_LE(found[i].radiance, 1.2) << i;
+        if (i >= finite) {
+            EXPECT_EQ(found[i].radiance, 0.0) << i;
+        }
     }
 }
 
