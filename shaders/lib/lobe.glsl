@@ -110,6 +110,7 @@ float cosine_of(vec3 d) {
 struct Filled {
     float share;
     vec3 toward;  // unit: the mean direction, weighed by the cosine
+    float even;   // lowest over highest of its cosines: 1 where it is small, 0 where the horizon cuts it
 };
 
 Filled filled_cosine(vec3 middle, vec3 x, vec3 y, bool round_) {
@@ -150,6 +151,7 @@ Filled filled_cosine(vec3 middle, vec3 x, vec3 y, bool round_) {
     float z = min(mean.z + between * between / (12.0 * max(mean.z, 1e-6)), max(highest, mean.z));
     float flat_ = sqrt(max(1.0 - z * z, 0.0) / max(1.0 - mean.z * mean.z, 1e-12));
     out_.toward = vec3(mean.xy * flat_, z);
+    out_.even = clamp(lowest / max(max(highest, mean.z), 1e-6), 0.0, 1.0);
     return out_;
 }
 
@@ -168,8 +170,9 @@ Reflected reflected_flat_light(Surface s, vec3 v, FlatLight flat_) {
     float polygon = smoothstep(LOBE_POINT_SIZE.x, LOBE_POINT_SIZE.y, size);
 
     // As a polygon: the share that it fills of the cosine, and what that is worth. The fit is held against the law in the
-    // mean direction of what is reflected; but where the light fills much of the lobe the lobe's own sums are right. The
-    // exponents are those with the least error in tests/shaders/lobe_test.cpp.
+    // mean direction of what is reflected; but where the light fills much of the lobe the lobe's own sums are right, and
+    // where it is large one direction does not tell for all. The exponents are those with the least error in
+    // tests/shaders/lobe_test.cpp.
     Filled filled = filled_cosine(middle, x, y, flat_.round_);
     vec3 mean = lobe.in_plane * filled.toward.x + lobe.across * filled.toward.y + lobe.axis * filled.toward.z;
     float stretch = length(mean);
@@ -178,7 +181,7 @@ Reflected reflected_flat_light(Surface s, vec3 v, FlatLight flat_) {
     toward = fills ? safe_normalize(mean, s.normal) : toward;
     float law = ggx_times_cosine(s, toward, v);
     vec3 fresnel = specular_fresnel(s, toward, v);
-    float worth = mix(law / (fills ? density : 1.0), lobe.albedo, sqrt(sqrt(filled.share)));
+    float worth = mix(law / (fills ? density : 1.0), lobe.albedo, pow(filled.share, mix(0.25, 1.0, filled.even)));
     vec3 filled_radiance = (filled.share * worth) * mix(fresnel, lobe.fresnel, filled.share * filled.share);
 
     Reflected out_;
