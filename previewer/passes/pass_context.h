@@ -8,6 +8,7 @@
 #include "gl/program.h"
 #include "gpu/environment_maps.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/lobe_table.h"
 #include "gpu/uniform_arena.h"
 
 namespace bounce::passes {
@@ -47,6 +48,7 @@ struct LightPass {
     bool casts_shadow = true;
     bool sized = false;  // it has a radius, or a sun's angle
     bool glossy = true;  // false: its reflection is drawn with the world's image
+    const gpu::LobeTable* lobes = nullptr;  // where glossy lobes reflect it with its size
     SoftMaps soft;
     // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.
     double flux_w = 0.0;
