@@ -304,9 +304,10 @@ void RenderOptions::add_to(CLI::App& command) {
         std::to_string(Settings{}.emitter_panels));
     group.number(
         "--bounce-places", bounce_places,
-        fmt::format("Places on a large area light that its bounced light starts from, with a reflective shadow "
-                    "map each, 1 to {}, a power of two; 1: its centre",
-                    k_most_bounce_places),
+        fmt::format(
+            "Places on a large area light that its bounced light starts from, with a reflective shadow "
+            "map each, 1 to {}, a power of two; 1: its centre",
+            k_most_bounce_places),
         std::to_string(Settings{}.bounce_places));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",

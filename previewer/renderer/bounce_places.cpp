@@ -63,13 +63,13 @@ std::vector<LightSetup> bounce_places(const LightSetup& light, int count) {
         place.name = fmt::format("{}, place {} of {}", light.name, i + 1, count);
         place.flux_w /= count;
         place.gpu.position += glm::vec4(glm::vec3(offset), 0.0F);
-        place.gpu.intensity = glm::vec4(glm::vec3(light.gpu.intensity) / static_cast<float>(count),
-                                        light.gpu.intensity.w);
+        place.gpu.intensity =
+            glm::vec4(glm::vec3(light.gpu.intensity) / static_cast<float>(count), light.gpu.intensity.w);
         place.gpu.cone.z = 1.0F / static_cast<float>(count);
         place.gpu.map.x = size;
         for (LightFace& face : place.faces) {
-            face.clip_from_render = glm::mat4(glm::dmat4(face.clip_from_render) *
-                                              glm::translate(glm::dmat4(1.0), -offset));
+            face.clip_from_render =
+                glm::mat4(glm::dmat4(face.clip_from_render) * glm::translate(glm::dmat4(1.0), -offset));
         }
         out.push_back(std::move(place));
     }

@@ -13,7 +13,7 @@ namespace bounce {
 
 // Of the scene's diagonal: an area light whose own diagonal is at least this long has places. docs/lights.md
 // has the measurement ("Bounced light of area lights").
-inline constexpr double k_large_light = 0.1;
+inline constexpr double k_large_light = 0.4;
 
 // How many places an instance's bounced light starts from: `most` (a power of two, 1 to 16) for a large area
 // light, otherwise 1. scene_diagonal_m: of the whole animation, or lights would change their places with what

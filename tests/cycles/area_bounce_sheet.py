@@ -4,7 +4,7 @@
     blender -b --factory-startup -P tests/cycles/area_bounce_sheet.py -- square square.blend
 
 LIGHT is one of the names below; `bounce evaluate` compares the file with Cycles (docs/lights.md, "Bounced light of area
-lights"). lamp, tile, square: squares of 0.3, 0.7 and 1.4 m under the ceiling. long: a tube along it. wall: a panel that
+lights"). tile, square, large: squares of 0.7, 1.4 and 2.2 m under the ceiling. long: a tube along it. wall: a panel that
 nearly covers the red wall. moving: a panel that flies through the room and turns (frames 1 to 48).
 """
 import argparse
@@ -27,16 +27,16 @@ def area(width, height, location, rotation=(0.0, 0.0, 0.0)):
 
 
 def moving():
-    light = area(1.6, 0.4, (-1.3, -0.4, 2.6))
-    common.key(light, "location", [(1, (-1.3, -0.4, 2.6)), (48, (1.3, 0.4, 2.2))], "LINEAR")
+    light = area(3.2, 0.4, (-0.6, -0.4, 2.6))
+    common.key(light, "location", [(1, (-0.6, -0.4, 2.6)), (48, (0.6, 0.4, 2.2))], "LINEAR")
     common.key(light, "rotation_euler", [(1, (0.0, 0.2, 0.0)), (48, (0.4, -0.3, math.radians(140)))], "LINEAR")
 
 
 UNDER_CEILING = (0.3, -0.2, HEIGHT - 0.05)
 LIGHTS = {
-    "lamp": lambda: area(0.3, 0.3, UNDER_CEILING),
     "tile": lambda: area(0.7, 0.7, UNDER_CEILING),
     "square": lambda: area(1.4, 1.4, UNDER_CEILING),
+    "large": lambda: area(2.2, 2.2, UNDER_CEILING),
     "long": lambda: area(4.4, 0.3, (0.0, 0.0, HEIGHT - 0.05)),
     "wall": lambda: area(2.6, 3.4, (0.05 - HALF_WIDTH, 0.0, 1.5), (0.0, -math.pi / 2, 0.0)),
     "moving": moving,

@@ -64,7 +64,8 @@ Settings settings_of(Technique technique, int places) {
     settings.rsm_full_sum = technique == Technique::rsm;
     settings.antialias = false;  // pixel by pixel
     settings.interpolate = false;
-    settings.vpls = 1024;
+    settings.vpls = 128;
+    settings.interleave = 1;
     settings.bounce_places = places;
     return settings;
 }
@@ -79,9 +80,9 @@ double wall_irradiance(const glm::dvec3& wall) {
     const scene::Light light = panel();
     double sum = 0.0;
     for (int i = 0; i < pieces * pieces; ++i) {
-        const glm::dvec3 at = k_panel_middle +
-                              glm::dvec3(0.0, light.size_y_m * ((i / pieces + 0.5) / pieces - 0.5),
-                                         light.size_x_m * ((i % pieces + 0.5) / pieces - 0.5));
+        const glm::dvec3 at =
+            k_panel_middle + glm::dvec3(0.0, light.size_y_m * ((i / pieces + 0.5) / pieces - 0.5),
+                                        light.size_x_m * ((i % pieces + 0.5) / pieces - 0.5));
         const glm::dvec3 d = wall - at;
         const double squared = glm::dot(d, d);
         sum += d.x * d.x / (squared * squared);  // both cosines are |x|/d
@@ -130,9 +131,8 @@ Error floor_error(const Rendered& picture) {
 }
 
 Error panel_error(Technique technique, int places) {
-    const Error out =
-        floor_error(draw(lit_corner(panel(), world_from_panel()), camera_from_above(k_frame_m, 50.0),
-                         settings_of(technique, places)));
+    const Error out = floor_error(draw(lit_corner(panel(), world_from_panel()),
+                                       camera_from_above(k_frame_m, 50.0), settings_of(technique, places)));
     std::printf("technique %d, %2d places: worst %.4f, mean %+.4f\n", static_cast<int>(technique), places,
                 out.worst, out.mean);
     return out;
@@ -144,22 +144,24 @@ TEST_F(BouncePlaces, OfAPanelBeforeAWallAreNearTheIntegral) {
     const Error one = panel_error(Technique::rsm, 1);
     const Error four = panel_error(Technique::rsm, 4);
     const Error sixteen = panel_error(Technique::rsm, 16);
-    EXPECT_GT(one.worst, 0.15);
-    EXPECT_LT(four.worst, 0.05);
-    EXPECT_LT(std::abs(four.mean), 0.02);
-    EXPECT_LT(sixteen.worst, 0.03);
-    EXPECT_LT(std::abs(sixteen.mean), 0.02);
+    EXPECT_GT(one.worst, 0.3);
+    EXPECT_GT(one.mean, 0.1);
+    EXPECT_LT(four.worst, 0.16);
+    EXPECT_LT(std::abs(four.mean), 0.025);
+    EXPECT_LT(sixteen.worst, 0.04);
+    EXPECT_LT(std::abs(sixteen.mean), 0.01);
 }
 
 TEST_F(BouncePlaces, LoseNoLightAsVirtualPointLights) {
-    // Lights of all places stand on the same wall: if each counted all of it as its own, what is bounded by it
-    // would lose a tenth of the light with 16 places.
-    const Error four = panel_error(Technique::ism, 4);
-    const Error sixteen = panel_error(Technique::ism, 16);
-    EXPECT_LT(four.worst, 0.08);
-    EXPECT_LT(std::abs(four.mean), 0.02);
-    EXPECT_LT(sixteen.worst, 0.08);
-    EXPECT_LT(std::abs(sixteen.mean), 0.03);
+    // Lights of all places stand on the same wall: if each counted all of it as its own, the near field and
+    // what bounds the lights would lose light with the number of places: a fifth of it with 16. Against the
+    // full sum from the same places, whose own error is above. Few lights, which show it most, are coarse
+    // this near to the floor: 1 % off from one place, 6 % from more.
+    for (const int places : {1, 4, 16}) {
+        const double sum = panel_error(Technique::rsm, places).mean;
+        const double vpls = panel_error(Technique::ism, places).mean;
+        EXPECT_NEAR((1.0 + vpls) / (1.0 + sum), 1.0, 0.09) << places;
+    }
 }
 
 std::vector<std::string> maps_in(const std::vector<std::string>& passes) {
@@ -179,7 +181,7 @@ TEST_F(BouncePlaces, HaveAMapEach) {
 }
 
 TEST_F(BouncePlaces, SmallLightsHaveNone) {
-    // An area light below a tenth of the scene's diagonal, and a point with a large radius.
+    // An area light below four tenths of the scene's diagonal, and a point with a large radius.
     scene::Light small = panel();
     small.size_x_m = small.size_y_m = 0.3F;
     scene::Light ball = panel();

@@ -95,9 +95,9 @@ TEST(BouncePlaces, AreForLargeAreaLights) {
         return count_bounce_places({0, 0, matrix}, light, diagonal, 4);
     };
     const glm::dmat4 one(1.0);
-    EXPECT_EQ(count(area(3.0F, 4.0F), 50.0, one), 4);   // a tenth
-    EXPECT_EQ(count(area(3.0F, 4.0F), 50.1, one), 1);
-    EXPECT_EQ(count(area(3.0F, 4.0F), 99.0, glm::scale(one, glm::dvec3(2.0))), 4);
+    EXPECT_EQ(count(area(3.0F, 4.0F), 12.4, one), 4);  // a diagonal of 5 m over four tenths of it
+    EXPECT_EQ(count(area(3.0F, 4.0F), 12.6, one), 1);
+    EXPECT_EQ(count(area(3.0F, 4.0F), 24.0, glm::scale(one, glm::dvec3(2.0))), 4);
     EXPECT_EQ(count(area(3.0F, 4.0F), 0.0, one), 1) << "a scene of one point";
     EXPECT_EQ(count(area(3.0F, 4.0F), std::numeric_limits<double>::infinity(), one), 1);
     scene::Light ball = area(3.0F, 4.0F);
