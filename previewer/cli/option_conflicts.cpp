@@ -87,6 +87,13 @@ std::string technique_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+std::string bounce_conflict(const RenderOptions& o, const Settings& s) {
+    if (o.bounce_places.value_or(1) > 1 && s.technique == Technique::direct) {
+        return "--bounce-places has no effect with --technique direct, which draws no bounced light";
+    }
+    return {};
+}
+
 std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
     const char* option = first_given({{"--shadow-samples", o.shadow_samples.has_value()},
                                       {"--soft-shadow-size", o.soft_shadow_size.has_value()}});
@@ -203,7 +210,7 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
     for (std::string conflict : {technique_conflict(o, s), shadow_conflict(o, s), emitter_conflict(o, s),
-                                 layer_conflict(o, s), samples_conflict(o, s)}) {
+                                 bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

@@ -302,6 +302,13 @@ void RenderOptions::add_to(CLI::App& command) {
             "area lights instead, 0 to {}",
             k_most_emitter_panels),
         std::to_string(Settings{}.emitter_panels));
+    group.number(
+        "--bounce-places", bounce_places,
+        fmt::format(
+            "Places on a large area light that its bounced light starts from, with a reflective shadow "
+            "map each, 1 to {}, a power of two; 1: its centre",
+            k_most_bounce_places),
+        std::to_string(Settings{}.bounce_places));
     group.number("--shadow-size", shadow_size,
                  "Side of a light's shadow map in texels, 2 to 16384; half of it for a cube's faces",
                  std::to_string(Settings{}.shadow_size));
@@ -374,6 +381,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(world_vpls, out.world_vpls);
     set(emitter_vpls, out.emitter_vpls);
     set(emitter_panels, out.emitter_panels);
+    set(bounce_places, out.bounce_places);
     set(bounce_source, k_bounce_sources, out.splat_irsms);
     set(interleave, out.interleave);
     set(vpl_sampling, setting_names<VplSampling>(), out.vpl_sampling);

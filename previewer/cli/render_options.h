@@ -43,6 +43,7 @@ struct RenderOptions {
     std::optional<int> world_vpls;
     std::optional<int> emitter_vpls;
     std::optional<int> emitter_panels;
+    std::optional<int> bounce_places;
     std::optional<int> interleave;
     std::optional<bool> near_field;
     std::optional<bool> glossy;

@@ -109,6 +109,7 @@ ordered_json settings_json(const Settings& s) {
     }
     if (s.technique != Technique::direct) {
         out["rsm_size"] = s.used_rsm_size();
+        out["bounce_places"] = s.bounce_places;
     }
     if (s.technique == Technique::rsm) {
         out["rsm_samples"] = s.rsm_full_sum ? ordered_json("all") : ordered_json(s.rsm_samples);

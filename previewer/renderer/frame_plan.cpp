@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/bounce_places.h"
 #include "renderer/penumbra.h"
 #include "scene/transparency.h"
 
@@ -128,9 +129,15 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
                             throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
         plan.veiled.push_back(plan.blends && plan.shadows.back() && !plan.soft.back() &&
                               settings.direct_shadows != DirectShadows::hard);
+        const bool bounces = plan.indirect && !plan.takes_light.back();
+        plan.places.push_back(bounces && sight != nullptr
+                                  ? count_bounce_places(pose.light_instances[i], light,
+                                                        sight->scene_diagonal_m, settings.bounce_places)
+                                  : 1);
         if (light.type == scene::LightType::area && plan.indirect) {
-            plan.approximations.push_back(
-                fmt::format("area light {}: its bounce is taken from its centre", light.name));
+            plan.approximations.push_back(fmt::format(
+                "area light {}: its bounce is taken from {}", light.name,
+                plan.places.back() == 1 ? "its centre" : fmt::format("{} places", plan.places.back())));
         }
     }
     if (std::find(plan.takes_light.begin(), plan.takes_light.end(), false) == plan.takes_light.end()) {

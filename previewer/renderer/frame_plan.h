@@ -48,6 +48,7 @@ struct FramePlan {
     std::vector<bool> shadows;       // per entry of `lights`
     std::vector<bool> soft;          // the same: those whose shadow has a penumbra
     bool imperfect_shadows = false;  // of these some have imperfect maps
+    std::vector<int> places;         // parallel to `lights`: that its bounced light starts from
     std::vector<bool>
         veiled;  // the same: those that blended surfaces let a part of through, though their shadow is hard
     std::vector<LeftOut> left_out;            // and why
@@ -55,13 +56,14 @@ struct FramePlan {
     std::vector<std::string> approximations;  // where the picture knowingly differs from Cycles
 };
 
-// What decides whether a penumbra can be seen.
+// What decides whether a penumbra can be seen, and which lights are large.
 struct Sight {
-    scene::Bounds bounds;         // of the pose, world space
-    double finest_pixel_m = 0.0;  // penumbra.h
+    scene::Bounds bounds;           // of the pose, world space
+    double finest_pixel_m = 0.0;    // penumbra.h
+    double scene_diagonal_m = 0.0;  // of the whole animation
 };
 
-// sight: where it is null, every penumbra counts as seen.
+// sight: where it is null, every penumbra counts as seen and no light as large.
 [[nodiscard]] FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose,
                                    const Settings& settings, const Sight* sight = nullptr);
 

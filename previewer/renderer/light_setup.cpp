@@ -221,6 +221,7 @@ LightSetup set_up_light(const scene::LightInstance& instance, const scene::Light
             out.flux_w = luminance * light.power_w * pi / 4.0;
             break;
     }
+    gpu.cone.z = 1.0F;
     if (out.map_kind == MAP_CUBE) {
         add_cube_faces(frame, out);
         gpu.map.x = static_cast<float>(std::max(rsm_size / 2, 1));

@@ -463,6 +463,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     if (in.plan.imperfect_shadows && in.points != nullptr) {
         scene = add_point_update(graph, context, *in.points);
     }
+    std::vector<size_t> first_places;  // in gather.sources, of each light that bounces
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
@@ -475,14 +476,20 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }
         if (in.plan.indirect && !in.plan.takes_light[i]) {
-            gather.sources.push_back(
-                {light, add_rsm(graph, context, light), in.gather_frames[i], in.patterns[i]});
+            first_places.push_back(gather.sources.size());
+            for (const BounceSource& place : in.bounce_sources) {
+                if (place.light == i) {
+                    gather.sources.push_back(
+                        {place.pass, add_rsm(graph, context, place.pass), place.gather_frame, place.pattern});
+                }
+            }
         }
     }
 
     const auto shown = static_cast<size_t>(in.settings.shown_light);
-    if (shows_rsm(in.settings.show) && shown < gather.sources.size()) {
-        add_rsm_layer_view(graph, context, gather.sources[shown], layer_of(in.settings.show), in.target);
+    if (shows_rsm(in.settings.show) && shown < first_places.size()) {
+        add_rsm_layer_view(graph, context, gather.sources[first_places[shown]], layer_of(in.settings.show),
+                           in.target);
         return;
     }
 

@@ -22,6 +22,14 @@ struct Bounce {
     passes::VplSet irsms;
 };
 
+// What bounced light starts from: a light, or a place on it.
+struct BounceSource {
+    size_t light = 0;  // in PipelineInputs::lights
+    passes::LightPass pass;
+    gpu::UniformArena::Slot gather_frame;  // FrameUniforms with its sample count
+    const gl::Buffer* pattern = nullptr;
+};
+
 struct PipelineInputs {
     const FramePlan& plan;
     const Settings& settings;
@@ -32,11 +40,10 @@ struct PipelineInputs {
     // none.
     std::vector<passes::ImperfectMaps> imperfect;
     std::vector<gl::Buffer>* places = nullptr;
-    std::vector<gpu::UniformArena::Slot> gather_frames;  // FrameUniforms with each light's sample count
-    std::vector<const gl::Buffer*> patterns;             // each light's
-    gpu::PointStore* points = nullptr;                   // where the plan needs them
-    std::vector<Bounce> bounces;                         // plan.bounces of them
-    Bounce world;                                        // where plan.world_occluded; its lights' buffer:
+    std::vector<BounceSource> bounce_sources;  // in their order, one of each at least
+    gpu::PointStore* points = nullptr;         // where the plan needs them
+    std::vector<Bounce> bounces;               // plan.bounces of them
+    Bounce world;                              // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
     passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them

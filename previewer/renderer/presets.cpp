@@ -13,6 +13,7 @@ Settings preset_settings(Preset preset) {
             out.world_vpls = 0;                         // the paper has no light from all around
             out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces
             out.direct_shadows = DirectShadows::hard;
+            out.bounce_places = 1;  // its lights are points
             break;
         case Preset::ism2008:
             // Sections 3.2 and 5: 1,024 lights and 256 of each further bounce, maps of 128 x 128 texels with
@@ -30,6 +31,7 @@ Settings preset_settings(Preset preset) {
             out.pull_threshold = out.push_threshold = 0.05F;
             out.interleave = 4;
             out.splat_irsms = true;
+            out.bounce_places = 1;
             out.large_triangles = false;
             out.drop_hull = false;
             out.near_field = false;
@@ -49,6 +51,7 @@ Settings preset_settings(Preset preset) {
             out.rsm_size = 512;
             out.shading = Shading::deferred;
             out.soft_shadow_size = 512;
+            out.bounce_places = 1;
             out.interleave = 1;
             out.world_vpls = 0;                         // the paper has no light from all around
             out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "renderer/bounce_places.h"
 #include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
@@ -430,7 +431,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(view, gpu_scene_.bounds()),
                                                   settings.width, settings.height, gpu_scene_.space());
     const Sight sight{gpu_scene_.bounds(),
-                      finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds())};
+                      finest_pixel_m(view, camera, gpu_scene_.space(), gpu_scene_.bounds()),
+                      1.0 / gpu_scene_.space().scale};
     FramePlan plan = plan_frame(scene_, pose, settings, &sight);
     if (plan.emitters && !panels.empty() && panels_.all && panels.size() == panels_.panels.size()) {
         plan.emitters = plan.emitters_occluded = false;
@@ -469,13 +471,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<Imperfect> imperfect;
-    std::vector<double> fluxes;
-    for (size_t i = 0; i < plan.lights.size(); ++i) {
-        const auto index = static_cast<size_t>(plan.lights[i]);
-        const scene::LightInstance& instance = pose.light_instances[index];
-        const LightSetup setup =
-            set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
-                         gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
+    std::vector<BounceSource> bounce_sources;
+    std::vector<double> fluxes;         // of the lights
+    std::vector<double> source_fluxes;  // of the sources of bounced light
+    const auto light_pass = [&](const LightSetup& setup) {
         passes::LightPass pass;
         pass.name = setup.name;
         pass.map_kind = setup.map_kind;
@@ -487,6 +486,16 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         pass.rsm_size = static_cast<int>(setup.gpu.map.x);
         pass.shadow_size = static_cast<int>(setup.gpu.map.y);
         pass.sized = setup.gpu.intensity.w > 0.0F || setup.gpu.cone.w > 0.0F;
+        pass.flux_w = setup.flux_w;
+        return pass;
+    };
+    for (size_t i = 0; i < plan.lights.size(); ++i) {
+        const auto index = static_cast<size_t>(plan.lights[i]);
+        const scene::LightInstance& instance = pose.light_instances[index];
+        const LightSetup setup =
+            set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
+                         gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
+        passes::LightPass pass = light_pass(setup);
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
@@ -511,6 +520,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         lights.push_back(pass);
         fluxes.push_back(pass.flux_w);
+        for (const LightSetup& place : bounce_places(setup, plan.places[i])) {
+            bounce_sources.push_back({i, plan.places[i] == 1 ? pass : light_pass(place), {}, nullptr});
+            source_fluxes.push_back(bounce_sources.back().pass.flux_w);
+        }
     }
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report);
@@ -527,12 +540,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     };
     const gpu::UniformArena::Slot frame = frame_slot(0);
 
-    const std::vector<int> samples = share_samples(fluxes, settings.rsm_samples);
-    std::vector<gpu::UniformArena::Slot> gather_frames;
-    std::vector<const gl::Buffer*> patterns;
+    const std::vector<int> samples = share_samples(source_fluxes, settings.rsm_samples);
     for (size_t i = 0; i < samples.size(); ++i) {
-        gather_frames.push_back(frame_slot(samples[i]));
-        patterns.push_back(&pattern(settings.rsm_pattern, samples[i]));
+        bounce_sources[i].gather_frame = frame_slot(samples[i]);
+        bounce_sources[i].pattern = &pattern(settings.rsm_pattern, samples[i]);
         report.rsm_samples += plan.indirect && settings.technique == Technique::rsm ? samples[i] : 0;
     }
     passes::WorldImage image;
@@ -574,8 +585,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .lights = lights,
                 .imperfect = imperfect_maps,
                 .places = &places_,
-                .gather_frames = gather_frames,
-                .patterns = patterns,
+                .bounce_sources = bounce_sources,
                 .points = points_needed(plan, settings) ? points_.get() : nullptr,
                 .bounces = bounces.bounces,
                 .world = bounces.world,

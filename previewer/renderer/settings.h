@@ -107,6 +107,7 @@ struct Settings {
     int bounce_vpls = 128;   // of each further one
     int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
     int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
+    int bounce_places = 4;   // on a large area light, that its bounced light starts from; a power of two
     int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most
     VplSampling vpl_sampling = VplSampling::inverse_transform;  // of the first bounce
     Shading shading = Shading::deferred;

@@ -32,6 +32,14 @@ std::string map_size_refusal(const char* setting, int size) {
     return out_of(setting, size, k_least_map_size, k_most_map_size, "give a number");
 }
 
+std::string bounce_places_refusal(int places) {
+    if (places >= 1 && places <= k_most_bounce_places && std::has_single_bit(static_cast<unsigned>(places))) {
+        return {};
+    }
+    return fmt::format("--bounce-places is {}; give a power of two from 1 to {}", places,
+                       k_most_bounce_places);
+}
+
 bool is_ism_size(int size, int most) {
     return size >= k_least_ism_size && size <= most && std::has_single_bit(static_cast<unsigned>(size));
 }
@@ -151,6 +159,7 @@ std::string settings_refusal(const Settings& s) {
           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
+          bounce_places_refusal(s.bounce_places),
           out_of("--emitter-panels", s.emitter_panels, 0, k_most_emitter_panels, "give a number"),
           ism_refusal(s),
           s.shown_bounce == 0 ? std::string()

@@ -13,6 +13,7 @@ namespace bounce {
 // Ends of the ranges.
 constexpr int k_most_vpls = 16384;
 constexpr int k_most_emitter_panels = 64;   // each is a light with shadow maps of its own
+constexpr int k_most_bounce_places = 16;    // more would not lie on an ellipse (bounce_places.cpp)
 constexpr int k_most_points_a_map = 65536;  // a point's place in its map is kept in 16 bits
 constexpr int k_least_ism_size = 32;
 constexpr int k_most_ism_size = 256;

@@ -92,6 +92,7 @@ void technique_section(ViewState& state, PanelResult& result) {
     }
     if (settings.technique != Technique::direct) {
         changed |= choose_size("RSM size", std::array{0, 64, 128, 256, 512, 1024, 2048}, settings.rsm_size);
+        changed |= choose_size("bounce places", std::array{1, 2, 4, 8, 16}, settings.bounce_places);
     }
     changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.world_vpls, "not occluded");

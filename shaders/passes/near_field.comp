@@ -72,7 +72,8 @@ void add_sample(Center at, vec2 st, int layer, float measure, float radius, inou
     float cos_out = max(dot(p.normal, w), 0.0);
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
-    float area = surface_area(p, at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30));
+    float texels = at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
+    float area = surface_area(p, texels) * light.cone.z;  // as in passes/vpl_draw.comp
     float share = near_share(squared, 1.0 / max(NEAR_RADIUS * NEAR_RADIUS * area, 1e-30));
     float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
     add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,

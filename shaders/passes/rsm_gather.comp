@@ -64,7 +64,8 @@ vec3 pixel_light_irradiance(Surface s, vec3 v, vec2 st, int layer, float measure
     // cos^2; it still keeps every sample finite, because a receiver in the piece's own plane gets nothing.
     // cos_incident is bounded because a grazing map texel says little about how far its surface goes on.
     float cos_incident = -dot(p.normal, p.from_light);
-    float piece = measure * p.squared_distance / max(cos_incident, 0.1);
+    // Samples of the other places of a light lie on the same surface.
+    float piece = measure * p.squared_distance / max(cos_incident, 0.1) * light.cone.z;
     float geometry = cos_p * cos_s / (squared * squared + cos_p * cos_p * piece / PI);
 #ifdef DISNEY
     vec3 to_receiver = d * inversesqrt(squared);

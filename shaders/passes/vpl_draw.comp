@@ -59,6 +59,7 @@ void store(int index, GpuVpl vpl, float area) {
 #ifdef FROM_IRSM
     float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
 #else
+    area *= light.cone.z;  // lights of the other places stand on the same surface
     float near_radius = NEAR_RADIUS * sqrt(area);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;

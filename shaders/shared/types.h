@@ -68,7 +68,8 @@ struct GpuLight {
     vec4 bitangent;         // xyz unit, map +t; w: half extent of an orthographic map
     vec4 intensity;         // rgb: W/sr on the axis (sun: W/m^2), render-space units; w: squared radius
     vec4 cone;              // spot: cos of the half angle, 1/(blend width in cos) or 0 for a hard edge,
-                            // khronos: scale and offset of its angular attenuation; w, sun: tan of half its angle
+                            // khronos: scale and offset of its angular attenuation;
+                            // z: 1 over how many places its bounced light starts from; w, sun: tan of half its angle
     vec4 area;              // half sizes in render space; tan and normalisation of the spread
     vec4 map;               // RSM size, shadow map size, near plane (orthographic: depth range), area ellipse 0/1
 };
