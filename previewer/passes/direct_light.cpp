@@ -27,6 +27,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         if (soft.shares.valid()) {
             builder.read(soft.shares);
             defines["SOFT_SHADOW"] = "1";
+            if (!light.tints.empty()) defines["TINTED"] = "1";
         }
         if (soft.flags.valid()) {
             builder.read(soft.flags);

@@ -29,10 +29,11 @@ struct Maps {
 };
 
 gl::Defines maps_defines(const LightPass& light, const Maps& maps) {
+    gl::Defines defines = maps.imperfect.empty() ? soft_defines(light) : light_defines(light);
+    if (!light.tints.empty()) defines["TINTED"] = "1";
     if (maps.imperfect.empty()) {
-        return soft_defines(light);
+        return defines;
     }
-    gl::Defines defines = light_defines(light);
     defines["IMPERFECT"] = "1";
     if (maps.imperfect.slope_bias) defines["SLOPE_BIAS"] = "1";
     defines.merge(map_defines(maps.imperfect.set));
@@ -137,8 +138,9 @@ TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const 
         declare_maps(builder, gbuffer, maps);
         builder.read(tiles.list);
         builder.read(tiles.counts);
-        shares = builder.create_texture(
-            "soft shadow", {.format = GL_RG32F, .width = context.width, .height = context.height});
+        const GLenum format = light.tints.empty() ? GL_RG32F : GL_RGBA32F;
+        shares = builder.create_texture("soft shadow",
+                                        {.format = format, .width = context.width, .height = context.height});
         return [context, gbuffer, light, maps, tiles, shares](const PassResources& resources) {
             bind_maps(context, resources, gbuffer, light, maps);
             resources.buffer(tiles.list).bind_storage(SSBO_PIXEL_LIST);
@@ -150,6 +152,10 @@ TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const 
                 if (chunk == 0) defines["FIRST_CHUNK"] = "1";
                 context.programs.compute("passes/soft_penumbra.comp", defines).use();
                 bind_chunk(context, light, maps, chunk);
+                if (!light.tints.empty()) {
+                    glUniform3fv(2, SHADOW_VIEW_CHUNK,
+                                 &light.tints[static_cast<size_t>(chunk) * SHADOW_VIEW_CHUNK].x);
+                }
                 glDispatchComputeIndirect(0);
                 finish_writes();
             }

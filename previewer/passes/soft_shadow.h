@@ -9,7 +9,8 @@ namespace bounce::passes {
 // How much of a light with a size each pixel sees.
 struct SoftShadow {
     TextureHandle
-        shares;  // RG32F: light that arrives, and that would without a shadow; where a tile has a penumbra
+        shares;  // RG32F: light that arrives, and that would without a shadow; where a tile has a penumbra.
+                 // Of a light with tints RGBA32F: what arrives in each channel, and what would in the mean
     BufferHandle flags;  // a tile: 1 lit, 2 in full shadow, 3 penumbra, 0 nothing to be lit; invalid where
                          // shares are everywhere
 };

@@ -499,7 +499,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
-        // The light of a spread is cut off within its outline: what a grid of points sees, and no closed form.
+        // The light of a spread is cut off within its outline: what a grid of points sees, and no closed
+        // form.
         const bool flat = setup.profile == PROFILE_AREA && setup.gpu.area.z < 1e-4F;
         if (plan.direct && pass.glossy && gpu_scene_.has_specular() && (pass.sized || flat)) {
             lobes_ = lobes_ ? std::move(lobes_) : std::make_unique<gpu::LobeTable>();
@@ -518,9 +519,14 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
             pass.soft.blended_only = plan.veiled[i];
             pass.soft.convolution_order = convolved ? settings.convolution_order : 0;
         }
+        const scene::Light& described = pose.lights[static_cast<size_t>(instance.light)];
+        if (plan.soft[i] && settings.direct_shadows != DirectShadows::convolution &&
+            described.pattern.width > 0) {
+            pass.tints = place_tints(setup, described, settings.used_shadow_samples());
+        }
         lights.push_back(pass);
         fluxes.push_back(pass.flux_w);
-        for (const LightSetup& place : bounce_places(setup, plan.places[i])) {
+        for (const LightSetup& place : bounce_places(setup, plan.places[i], described.pattern)) {
             bounce_sources.push_back({i, plan.places[i] == 1 ? pass : light_pass(place), {}, nullptr});
             source_fluxes.push_back(bounce_sources.back().pass.flux_w);
         }

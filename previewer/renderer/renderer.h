@@ -132,8 +132,8 @@ class Renderer {
     gl::Buffer world_lights_;
     std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
-    std::unique_ptr<gpu::LobeTable> lobes_;          // made when a glossy surface first meets a light with a size
-    scene::EmissivePanels panels_;                   // of so many sides at most
+    std::unique_ptr<gpu::LobeTable> lobes_;  // made when a glossy surface first meets a light with a size
+    scene::EmissivePanels panels_;           // of so many sides at most
     int most_panels_ = -1;
 };
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/light_samples.h"
+#include "renderer/light_tints.h"
 #include "renderer/penumbra.h"
 
 namespace bounce {
@@ -272,6 +273,14 @@ std::vector<glm::dvec3> place_offsets(const LightSetup& setup, const scene::Ligh
                  : p * radius;
     }
     return out;
+}
+
+std::vector<glm::vec3> place_tints(const LightSetup& setup, const scene::Light& light, int samples) {
+    const bool round = setup.gpu.map.w > 0.5F;
+    const std::vector<glm::dvec3> samples_of =
+        light_samples(round ? SampleShape::disk : SampleShape::square, samples);
+    const std::vector<glm::dvec2> places(samples_of.begin(), samples_of.end());
+    return light_tints(light.pattern, places, round);
 }
 
 SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,

@@ -21,13 +21,26 @@ layout(binding = IMG_OUT, rgba32f) uniform image2D direct_image;
 
 #ifdef SOFT_SHADOW
 // What passes/soft_probe.comp and soft_penumbra.comp, or convolution_shadow.comp, found out.
+#ifdef TINTED
+layout(binding = IMG_IN, rgba32f) readonly uniform image2D share_image;
+#else
 layout(binding = IMG_IN, rg32f) readonly uniform image2D share_image;
+#endif
 #ifdef SOFT_TILES
 layout(std430, binding = SSBO_TILE_FLAGS) readonly buffer FlagBlock {
     uint flags[];
 };
 #endif
 
+#ifdef TINTED
+// Every tile that sees some of the light has asked all its places.
+vec3 soft_visibility(ivec2 pixel) {
+    ivec2 tile = pixel / GROUP_2D;
+    uint seen = flags[tile.y * ((frame.size.x + GROUP_2D - 1) / GROUP_2D) + tile.x];
+    vec4 share = imageLoad(share_image, pixel);
+    return seen != 3u ? vec3(seen == 2u ? 0.0 : 1.0) : share.a > 0.0 ? share.rgb / share.a : vec3(1.0);
+}
+#else
 float soft_visibility(ivec2 pixel) {
 #ifndef SOFT_TILES
     return imageLoad(share_image, pixel).r;
@@ -38,6 +51,7 @@ float soft_visibility(ivec2 pixel) {
     return seen != 3u ? (seen == 2u ? 0.0 : 1.0) : share.y > 0.0 ? share.x / share.y : 1.0;
 #endif
 }
+#endif
 #endif
 
 // Mean cosine over a disk of directions around one with the cosine n_dot_l, where what is under the horizon counts

@@ -39,7 +39,12 @@ void main() {
     if (inside && depth > 0.0 && sum.y > 0.0) {
         ivec2 tile = pixel / GROUP_2D;
         int tiles_x = (frame.size.x + GROUP_2D - 1) / GROUP_2D;
+#ifdef TINTED
+        // What is seen of the light tells its colour there, even where all of it is seen.
+        uint seen = sum.x > 0.0 ? 3u : 2u;
+#else
         uint seen = (sum.x > 0.0 ? 1u : 0u) | (sum.x < sum.y ? 2u : 0u);
+#endif
         atomicOr(flags[tile.y * tiles_x + tile.x], seen);
     }
 }
