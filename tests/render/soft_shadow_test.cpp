@@ -356,7 +356,7 @@ class ImperfectShadows : public SoftShadows {
 TEST_F(ImperfectShadows, AHalfPlaneLeavesItsPartOfARectangle) {
     const scene::Light light = sized(scene::LightType::area);
     const CameraView camera = camera_from_above(k_width, 10.0);
-    for (const int places : {128, 256, 512}) {
+    for (const int places : {256, 512}) {
         Settings s = imperfect();
         s.shadow_samples = places;
         const Rendered shaded = draw(scene_with(light, overhead(), true), camera, s);
@@ -370,23 +370,32 @@ TEST_F(ImperfectShadows, AHalfPlaneLeavesItsPartOfARectangle) {
 }
 
 TEST_F(ImperfectShadows, SoDoesOneOfPointsAlone) {
-    // The half plane and the floor as points, however they are splatted: their outline is as ragged as they
-    // are wide (65,536 of them over 52 square metres: radii of 1.6 cm, of disks 2.5 cm), a tenth of the
-    // penumbra, and reaches that much too far.
+    // The half plane and the floor as points: 8,192 of them over 52 square metres stand for 4.5 cm around
+    // them each, and their disks reach 7 cm, a fifth of the penumbra. Squares of one depth need a bias as
+    // well, and leak by it.
     const scene::Light light = sized(scene::LightType::area);
     const CameraView camera = camera_from_above(k_width, 10.0);
     for (const Splat splat : {Splat::disks, Splat::compute, Splat::points}) {
         Settings s = imperfect();
         s.splat = splat;
         s.large_triangles = false;
-        s.ism_points = 65536;
-        s.shadow_samples = 64;
+        s.ism_points = 8192;
+        s.shadow_samples = 32;
+        s.soft_shadow_size = 64;
         const Rendered shaded = draw(scene_with(light, overhead(), true), camera, s);
         const Rendered lit = draw(scene_with(light, overhead(), false), camera, s);
         EXPECT_THAT(shaded.report.executed, Not(Contains("ism triangles")));
-        EXPECT_EQ(shaded.report.shadow_points_a_map, 65536);
-        expect_penumbra(shaded, lit, rectangle_beyond_edge,
-                        "splat " + std::to_string(static_cast<int>(splat)), 0.15, 0.05);
+        EXPECT_EQ(shaded.report.shadow_points_a_map, 8192);
+        double sum = 0.0;
+        for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+            const double at = ((x + 0.5) / k_pixels - 0.5) * k_width;
+            const double off =
+                shaded.at(x, k_pixels / 2).x / lit.at(x, k_pixels / 2).x - rectangle_beyond_edge(at);
+            EXPECT_NEAR(off, 0.0, splat == Splat::disks ? 0.2 : 0.4) << "splat " << static_cast<int>(splat);
+            sum += off;
+        }
+        EXPECT_NEAR(sum / (0.5 * k_pixels), 0.0, splat == Splat::disks ? 0.08 : 0.2)
+            << "splat " << static_cast<int>(splat);
     }
 }
 
@@ -426,7 +435,7 @@ TEST_F(ImperfectShadows, NothingShadowsItself) {
             for (const bool triangles : {true, false}) {
                 Settings s = imperfect();
                 s.large_triangles = triangles;
-                s.shadow_samples = 64;
+                s.shadow_samples = 32;
                 light.cast_shadow = true;
                 const Rendered with_shadow = draw(scene_with(light, at, false), camera, s);
                 light.cast_shadow = false;

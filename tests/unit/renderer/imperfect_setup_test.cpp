@@ -104,7 +104,8 @@ TEST(ImperfectSetup, ALightAmongReceiversHasBothHemispheres) {
         EXPECT_EQ(front.position, back.position);
         EXPECT_EQ(glm::vec3(front.normal), -glm::vec3(back.normal));
         const auto of_back = std::bit_cast<uint32_t>(back.bitangent.w);
-        EXPECT_EQ(std::bit_cast<uint32_t>(front.incident.w), of_back) << "the front knows where the back's map is";
+        EXPECT_EQ(std::bit_cast<uint32_t>(front.incident.w), of_back)
+            << "the front knows where the back's map is";
         origins.insert(std::bit_cast<uint32_t>(front.bitangent.w));
         origins.insert(of_back);
         EXPECT_EQ(glm::vec3(front.incident), glm::vec3(0.0F, 0.0F, 1.0F)) << "all of the hemisphere";
@@ -126,7 +127,8 @@ TEST(ImperfectSetup, ASunsMapsHoldTheReceivers) {
         for (const glm::dvec3& p : seen) {
             const glm::dvec3 d = p - glm::dvec3(glm::vec3(map.position));
             for (const glm::vec4& axis : {map.tangent, map.bitangent, map.normal}) {
-                EXPECT_LT(std::abs(glm::dot(d, glm::dvec3(glm::vec3(axis)))), static_cast<double>(map.tangent.w));
+                EXPECT_LT(std::abs(glm::dot(d, glm::dvec3(glm::vec3(axis)))),
+                          static_cast<double>(map.tangent.w));
             }
         }
     }
