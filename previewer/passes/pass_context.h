@@ -46,8 +46,8 @@ struct LightPass {
     int rsm_size = 0;
     int shadow_size = 0;
     bool casts_shadow = true;
-    bool sized = false;  // it has a radius, or a sun's angle
-    bool glossy = true;  // false: its reflection is drawn with the world's image
+    bool sized = false;                     // it has a radius, or a sun's angle
+    bool glossy = true;                     // false: its reflection is drawn with the world's image
     const gpu::LobeTable* lobes = nullptr;  // where glossy lobes reflect it with its size
     SoftMaps soft;
     // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.

@@ -429,7 +429,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
-        // The light of a spread is cut off within its outline: what a grid of points sees, and no closed form.
+        // The light of a spread is cut off within its outline: what a grid of points sees, and no closed
+        // form.
         const bool flat = setup.profile == PROFILE_AREA && setup.gpu.area.z < 1e-4F;
         if (plan.direct && pass.glossy && gpu_scene_.has_specular() && (pass.sized || flat)) {
             lobes_ = lobes_ ? std::move(lobes_) : std::make_unique<gpu::LobeTable>();

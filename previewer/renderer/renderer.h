@@ -115,8 +115,8 @@ class Renderer {
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
-    std::unique_ptr<gpu::LobeTable> lobes_;          // made when a glossy surface first meets a light with a size
-    scene::EmissivePanels panels_;                   // of so many sides at most
+    std::unique_ptr<gpu::LobeTable> lobes_;  // made when a glossy surface first meets a light with a size
+    scene::EmissivePanels panels_;           // of so many sides at most
     int most_panels_ = -1;
 };
 

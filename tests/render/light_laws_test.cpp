@@ -444,9 +444,9 @@ double white_metal(double roughness, const glm::dvec3& l) {
     return alpha2 / (pi * t * t) * l.z / (smith * 2.0);
 }
 
-// The same at (x, 0, 0), of a light above the origin at `height`: a mean over even pieces. A point's disk faces the
-// receiver; a sun's is that of its directions at distance 1, with `height` 1 and the radius of its half angle's
-// tangent.
+// The same at (x, 0, 0), of a light above the origin at `height`: a mean over even pieces. A point's disk
+// faces the receiver; a sun's is that of its directions at distance 1, with `height` 1 and the radius of its
+// half angle's tangent.
 double white_metal_under(const scene::Light& light, double roughness, double height, double x) {
     constexpr int side = 300;
     double sum = 0.0;
@@ -473,7 +473,8 @@ double white_metal_under(const scene::Light& light, double roughness, double hei
             const glm::dvec3 d((u - 0.5) * static_cast<double>(light.size_x_m) - x,
                                (v - 0.5) * static_cast<double>(light.size_y_m), height);
             const glm::dvec3 l = glm::normalize(d);
-            sum += static_cast<double>(light.power_w) / 4.0 * white_metal(roughness, l) * l.z / glm::dot(d, d);
+            sum +=
+                static_cast<double>(light.power_w) / 4.0 * white_metal(roughness, l) * l.z / glm::dot(d, d);
         }
     }
     return sum / (side * side);
@@ -518,8 +519,8 @@ TEST_F(LightLaws, GlossyLobesReflectALightsSize) {
                 brightest = std::max(brightest, want);
                 worst = std::max(worst, std::abs(r.at(k_size / 2, k_size / 2).x - want));
             }
-            // What the fit has wrong (tests/shaders/lobe_test.cpp), and a sun's radiance that grows towards its rim.
-            // As points these lights' middles are up to 13 times as bright at roughness 0.2.
+            // What the fit has wrong (tests/shaders/lobe_test.cpp), and a sun's radiance that grows towards
+            // its rim. As points these lights' middles are up to 13 times as bright at roughness 0.2.
             EXPECT_LT(worst / brightest, 0.03) << static_cast<int>(light.type) << ", roughness " << roughness;
         }
     }
