@@ -8,7 +8,9 @@
 
 int main() {
     using namespace bounce::gpu;
-    std::puts("// Written by fit_lobes. in_plane, across and sin_shift of gpu/lobe_fit.h; column by column, row by row.");
+    std::puts(
+        "// Written by fit_lobes. in_plane, across and sin_shift of gpu/lobe_fit.h; column by column, row by "
+        "row.");
     for (int row = 0; row < k_lobe_table_size; ++row) {
         for (int column = 0; column < k_lobe_table_size; ++column) {
             const double cosine = lobe_column_cosine(column);

@@ -112,8 +112,7 @@ struct Lobe {
             for (int j = 0; j < k_around; ++j) {
                 const double phi = pi * (j + 0.5) / k_around;
                 const double r = std::sqrt(u);
-                const glm::dvec3 w =
-                    matrix.moved({r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u)});
+                const glm::dvec3 w = matrix.moved({r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u)});
                 const double g = matrix.density(w);
                 add(ggx_times_cosine(n_dot_v, roughness, w) / albedo, g, drawn(w));
             }

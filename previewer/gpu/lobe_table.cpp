@@ -10,7 +10,7 @@
 namespace bounce::gpu {
 namespace {
 
-constexpr std::array<std::array<float, 3>, k_lobe_table_size * k_lobe_table_size> k_fits = {{
+constexpr std::array<std::array<float, 3>, k_lobe_table_size* k_lobe_table_size> k_fits = {{
 #include "gpu/lobe_fits.inc"
 }};
 
@@ -34,19 +34,17 @@ LobeFit stored_lobe(int column, int row) {
 }
 
 LobeTable::LobeTable()
-    : texture_("lobes", {.format = GL_RGBA32F,
-                         .width = k_lobe_table_size,
-                         .height = k_lobe_table_size,
-                         .layers = 2}) {
+    : texture_("lobes",
+               {.format = GL_RGBA32F, .width = k_lobe_table_size, .height = k_lobe_table_size, .layers = 2}) {
     std::vector<glm::vec4> texels;
     for (int layer = 0; layer < 2; ++layer) {
         for (int row = 0; row < k_lobe_table_size; ++row) {
             for (int column = 0; column < k_lobe_table_size; ++column) {
                 const LobeFit fit = stored_lobe(column, row);
-                texels.emplace_back(
-                    layer == 0 ? glm::dvec4(fit.in_plane, fit.across, fit.sin_shift, 0.0)
-                               : glm::dvec4(environment_brdf(lobe_column_cosine(column), lobe_row_roughness(row)),
-                                            0.0, 0.0));
+                texels.emplace_back(layer == 0 ? glm::dvec4(fit.in_plane, fit.across, fit.sin_shift, 0.0)
+                                               : glm::dvec4(environment_brdf(lobe_column_cosine(column),
+                                                                             lobe_row_roughness(row)),
+                                                            0.0, 0.0));
             }
         }
     }

@@ -10,8 +10,8 @@ namespace bounce::gpu {
 // Columns: views, from above to grazing; rows: roughness from 0 to 1.
 inline constexpr int k_lobe_table_size = 32;
 
-// n_dot_v = 1 - u^2 at place u between the first column's middle, 0, and the last one's, 1: steps of about the same
-// angle.
+// n_dot_v = 1 - u^2 at place u between the first column's middle, 0, and the last one's, 1: steps of about
+// the same angle.
 [[nodiscard]] double lobe_column_cosine(int column);
 [[nodiscard]] double lobe_row_roughness(int row);
 

@@ -55,8 +55,9 @@ double law(const Material& m, const glm::dvec3& v, const glm::dvec3& l) {
     return f * gpu::ggx_times_cosine(v.z, m.roughness, local);
 }
 
-// What the lobe reflects of the light: over pieces of the light and over directions that the lobe spreads, side x side of
-// each, weighed by the sum of both densities (Veach and Guibas 1995). Good to 1e-3 of the lobe's albedo.
+// What the lobe reflects of the light: over pieces of the light and over directions that the lobe spreads,
+// side x side of each, weighed by the sum of both densities (Veach and Guibas 1995). Good to 1e-3 of the
+// lobe's albedo.
 double reflected_sum(const Material& m, const glm::dvec3& v, const Flat& light, int side) {
     const glm::dvec3 normal = glm::cross(light.x, light.y);
     const double area = (light.round ? pi : 4.0) * glm::length(normal);
@@ -71,14 +72,13 @@ double reflected_sum(const Material& m, const glm::dvec3& v, const Flat& light, 
         for (int j = 0; j < side; ++j) {
             const glm::dvec2 u((i + 0.5) / side, (j + 0.5) / side);
             const double radius = std::sqrt(u.x);
-            const glm::dvec2 at = light.round
-                                      ? radius * glm::dvec2(std::cos(2.0 * pi * u.y), std::sin(2.0 * pi * u.y))
-                                      : 2.0 * u - 1.0;
+            const glm::dvec2 at =
+                light.round ? radius * glm::dvec2(std::cos(2.0 * pi * u.y), std::sin(2.0 * pi * u.y))
+                            : 2.0 * u - 1.0;
             const glm::dvec3 d = light.middle + at.x * light.x + at.y * light.y;
             const double squared = glm::dot(d, d);
             const glm::dvec3 l = d / std::sqrt(squared);
-            const double light_density =
-                squared / (area * std::abs(glm::dot(glm::normalize(normal), l)));
+            const double light_density = squared / (area * std::abs(glm::dot(glm::normalize(normal), l)));
             sum += law(m, v, l) / (light_density + lobe_density(l));
 
             const double cos2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
@@ -90,10 +90,10 @@ double reflected_sum(const Material& m, const glm::dvec3& v, const Flat& light, 
             const glm::dvec3 hit = t * r - light.middle;
             const glm::dvec2 on(glm::dot(hit, light.x) / glm::dot(light.x, light.x),
                                 glm::dot(hit, light.y) / glm::dot(light.y, light.y));
-            const bool inside = light.round ? glm::length(on) < 1.0 : std::abs(on.x) < 1.0 && std::abs(on.y) < 1.0;
+            const bool inside =
+                light.round ? glm::length(on) < 1.0 : std::abs(on.x) < 1.0 && std::abs(on.y) < 1.0;
             if (t > 0.0 && inside && glm::dot(h, v) > 0.0) {
-                const double there =
-                    t * t / (area * std::abs(glm::dot(glm::normalize(normal), r)));
+                const double there = t * t / (area * std::abs(glm::dot(glm::normalize(normal), r)));
                 sum += law(m, v, r) / (there + lobe_density(r));
             }
         }
@@ -143,8 +143,8 @@ class LobeGlsl : public ShaderTest {
 };
 
 TEST_F(LobeGlsl, StoredFitsAreWhatTheFitterFinds) {
-    // The simplex stops within 1e-9 of the least error, where the widths have moved by less than 1e-3 and the file's
-    // digits end at 1e-4.
+    // The simplex stops within 1e-9 of the least error, where the widths have moved by less than 1e-3 and the
+    // file's digits end at 1e-4.
     for (const int row : {0, 1, 5, 10, 16, 23, 31}) {
         for (const int column : {0, 9, 20, 30}) {
             const double cosine = gpu::lobe_column_cosine(column);
@@ -160,7 +160,8 @@ TEST_F(LobeGlsl, StoredFitsAreWhatTheFitterFinds) {
 }
 
 TEST_F(LobeGlsl, AFitIsADensityAndNearItsLobe) {
-    // (f - g)^2 / (f + g), integrated: 0.01 is a difference of a tenth all over. Lobes that graze are no cosines.
+    // (f - g)^2 / (f + g), integrated: 0.01 is a difference of a tenth all over. Lobes that graze are no
+    // cosines.
     const gpu::FittedLobe above = gpu::fit_lobe(std::cos(0.5), 0.4, {2.0, 2.0, 0.0});
     EXPECT_LT(above.error, 0.012);
     EXPECT_LT(gpu::fit_lobe(1.0, 0.1, {2.0, 2.0, 0.0}).error, 1e-4);
@@ -172,13 +173,15 @@ TEST_F(LobeGlsl, AFitIsADensityAndNearItsLobe) {
             const double z = (i + 0.5) / rings;
             const double phi = 2.0 * pi * (j + 0.5) / rings;
             const double r = std::sqrt(1.0 - z * z);
-            sum += gpu::lobe_density(above.fit, std::cos(0.5), 0.4, {r * std::cos(phi), r * std::sin(phi), z});
+            sum +=
+                gpu::lobe_density(above.fit, std::cos(0.5), 0.4, {r * std::cos(phi), r * std::sin(phi), z});
         }
     }
     EXPECT_NEAR(sum * 2.0 * pi / (rings * rings), 1.0, 1e-3);
 }
 
-// Differences as parts of what the lobe reflects of an even world, which is what a picture shows them against.
+// Differences as parts of what the lobe reflects of an even world, which is what a picture shows them
+// against.
 TEST_F(LobeGlsl, FlatLightsAgainstSumsOverThem) {
     for (const double metallic : {1.0, 0.0}) {
         std::vector<Case> cases;
@@ -203,8 +206,9 @@ TEST_F(LobeGlsl, FlatLightsAgainstSumsOverThem) {
             const double albedo = (metallic > 0.0 ? 1.0 : 0.04) * part.x + part.y;
             const double off = (found[i].radiance - reflected_sum(c.material, c.v, c.light, 120)) / albedo;
             mean += std::abs(off) / static_cast<double>(cases.size());
-            // Measured: metals 0.055 and 0.0036, dielectrics 0.125 and 0.0082. Worst are views of 80 degrees and
-            // lights that stand on the horizon; a dielectric's reflectance rises there, which the fit does not know.
+            // Measured: metals 0.055 and 0.0036, dielectrics 0.125 and 0.0082. Worst are views of 80 degrees
+            // and lights that stand on the horizon; a dielectric's reflectance rises there, which the fit
+            // does not know.
             EXPECT_LT(std::abs(off), metallic > 0.0 ? 0.07 : 0.15)
                 << "roughness " << c.material.roughness << ", view " << std::acos(c.v.z) * 180.0 / pi
                 << " degrees, light " << glm::length(c.light.x) << " towards " << c.light.middle.x << ' '
@@ -215,22 +219,23 @@ TEST_F(LobeGlsl, FlatLightsAgainstSumsOverThem) {
 }
 
 TEST_F(LobeGlsl, SmallDisksAreTheLightsTheyWereWithoutASize) {
-    // Half angles from a millionth of a degree to sixty. Where the light has become a polygon, what its fit has wrong
-    // shows (measured: 2.9 % at roughness 0.5). Below, floats: 1e-4.
+    // Half angles from a millionth of a degree to sixty. Where the light has become a polygon, what its fit
+    // has wrong shows (measured: 2.9 % at roughness 0.5). Below, floats: 1e-4.
     for (const double roughness : {0.2, 0.5, 1.0}) {
         std::vector<Case> cases;
         std::vector<double> tangents;
         for (double tangent = 1e-8; tangent < 1.8; tangent *= 1.5) {
             tangents.push_back(tangent);
-            cases.push_back({{.roughness = roughness}, at_angle(30.0),
+            cases.push_back({{.roughness = roughness},
+                             at_angle(30.0),
                              facing(at_angle(-33.0, 0.02), tangent, tangent, true)});
         }
         const std::vector<Found> found = shaded(cases);
         for (size_t i = 0; i < cases.size(); ++i) {
             const double size = tangents[i];
-            const double want = size < 1e-5 ? law(cases[i].material, cases[i].v, cases[i].light.middle) * pi *
-                                                  size * size
-                                            : reflected_sum(cases[i].material, cases[i].v, cases[i].light, 120);
+            const double want =
+                size < 1e-5 ? law(cases[i].material, cases[i].v, cases[i].light.middle) * pi * size * size
+                            : reflected_sum(cases[i].material, cases[i].v, cases[i].light, 120);
             EXPECT_NEAR(found[i].radiance / want, 1.0, size < 1e-4 ? 2e-4 : 0.035)
                 << "roughness " << roughness << ", tangent " << size;
         }
