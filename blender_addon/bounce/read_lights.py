@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's lights, as Cycles takes them, in the words of BOUNCE_scene."""
 
-from . import sockets
+from . import light_pattern, sockets
 from .lights import TYPE_OF_BLENDER, VALUES_OF_TYPE
 
 # Cycles' default; only another value is written.
@@ -17,11 +17,18 @@ def _emission_node(light):
     if not light.use_nodes or light.node_tree is None:
         return None
     node = sockets.surface_node(light.node_tree, "OUTPUT_LIGHT")
-    if node is None or node.type != "EMISSION":
+    if node is None or node.type != "EMISSION" or sockets.constant(node.inputs["Strength"]) is None:
         return False
-    if any(sockets.constant(node.inputs[name]) is None for name in ("Color", "Strength")):
+    if sockets.constant(node.inputs["Color"]) is None and light_pattern.image_node(light, node) is None:
         return False
     return node
+
+
+def _pattern(light):
+    """(mean colour, pattern) of the image over an area light; None without one."""
+    node = _emission_node(light)
+    image = light_pattern.image_node(light, node) if node else None
+    return None if image is None else light_pattern.read(image, light.shape in {"DISK", "ELLIPSE"})
 
 
 def values(light):
@@ -30,7 +37,9 @@ def values(light):
     strength = float(light.energy)
     node = _emission_node(light)
     if node:
-        color = [a * b for a, b in zip(color, sockets.constant(node.inputs["Color"]))]
+        pattern = _pattern(light)
+        emitted = pattern[0] if pattern is not None else sockets.constant(node.inputs["Color"])
+        color = [a * b for a, b in zip(color, emitted)]
         strength *= sockets.constant(node.inputs["Strength"])
     rectangular = getattr(light, "shape", "") in {"RECTANGLE", "ELLIPSE"}
     readers = {
@@ -55,6 +64,9 @@ def fixed(light):
     description = {"name": light.name, "type": TYPE_OF_BLENDER[light.type], "cast_shadow": _casts_shadow(light)}
     if light.type == "AREA":
         description["shape"] = light.shape.lower()
+        pattern = _pattern(light)
+        if pattern is not None:
+            description["pattern"] = pattern[1]
     max_bounces = getattr(getattr(light, "cycles", None), "max_bounces", _DEFAULT_MAX_BOUNCES)
     if max_bounces != _DEFAULT_MAX_BOUNCES:
         description["max_bounces"] = max_bounces
@@ -72,5 +84,10 @@ def issues(light):
         node = sockets.surface_node(light.node_tree, "OUTPUT_LIGHT")
         culprit = sockets.first_unreadable(node) if node is not None else "nothing at its output"
         yield f"light '{light.name}': its node tree is not a plain Emission ({culprit})"
+    node = _emission_node(light)
+    image = light_pattern.image_node(light, node) if node else None
+    if image is not None:
+        for issue in light_pattern.issues(image):
+            yield f"light '{light.name}': {issue}"
     if light.type == "SPOT" and getattr(light, "use_square", False):
         yield f"light '{light.name}': square spot"

@@ -8,7 +8,7 @@ reading curves would have to know each of them.
 import bpy
 import numpy as np
 
-from . import materials, read_lights, read_scene, read_world
+from . import light_pattern, materials, read_lights, read_scene, read_world
 from .visibility import animation_curves
 
 
@@ -70,6 +70,7 @@ def sample(scene, objects, models, frames):
 
 class _Recorder:
     def __init__(self, scene, objects, models):
+        light_pattern.forget()
         self._scene = scene
         self._objects = objects
         self._models = models

@@ -32,11 +32,35 @@ SOURCES = ("examples/sheets/light_stage.py", "examples/common.py",
 FACING = {"POINT": 250.0, "SPOT": 500.0, "SUN": 3.0, "AREA": 250.0}
 
 
-def light(kind, place=None, energy=None, color=(1.0, 1.0, 1.0), scale=(1.0, 1.0, 1.0), parent=None, **settings):
-    """parent: scale of an empty, turned about Z, that carries the light."""
+def light(kind, place=None, energy=None, color=(1.0, 1.0, 1.0), scale=(1.0, 1.0, 1.0), parent=None, image=False, **settings):
+    """parent: scale of an empty, turned about Z, that carries the light; image: an area light shines with light_image()."""
     place = place or (ABOVE if kind in ("POINT", "AREA") else ASIDE)
     return {"kind": kind, "place": place, "energy": FACING[kind] if energy is None else energy, "color": color, "scale": scale,
-            "parent": parent, "settings": settings}
+            "parent": parent, "settings": settings, **({"image": True} if image else {})}
+
+
+def light_image():
+    """Red to the left, green to the right, bluer upwards, and a dark bar across."""
+    side = 64
+    image = bpy.data.images.new("Light", side, side, float_buffer=True)
+    pixels = []
+    for y in range(side):
+        for x in range(side):
+            u, v = (x + 0.5) / side, (y + 0.5) / side
+            lit = 0.0 if 0.4 < v < 0.6 else 1.0
+            pixels += [lit * 2.0 * (1.0 - u) ** 2, lit * u, lit * v * v, 1.0]
+    image.pixels = pixels
+    image.pack()
+    return image
+
+
+def shine_with_image(data):
+    data.use_nodes = True
+    tree = data.node_tree
+    texture, geometry = (tree.nodes.new(kind) for kind in ("ShaderNodeTexImage", "ShaderNodeNewGeometry"))
+    texture.image = light_image()
+    tree.links.new(geometry.outputs["Parametric"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], tree.nodes["Emission"].inputs["Color"])
 
 
 def point(radius=0.0, **more):
@@ -95,6 +119,9 @@ def cases():
     yield case("area-parented", area("RECTANGLE", 0.6, 0.3, parent=(2.0, 2.0, 2.0)))
     yield case("area-sheared", area("RECTANGLE", 0.6, 0.3, parent=(2.0, 1.0, 1.0)))
     yield case("area-mirrored", area("RECTANGLE", 0.6, 0.3, parent=(-1.0, 1.0, 1.0)))
+    yield case("area-image", area("RECTANGLE", 2.0, 1.2, image=True))
+    yield case("area-image-low", area("SQUARE", 1.0, place=(-0.9, 0.0, 0.7), energy=40.0, image=True))
+    yield case("area-image-disk", area("DISK", 1.0, image=True))
     yield case("several", point(0.1, energy=80.0, color=(1.0, 0.6, 0.3)), spot(50.0, energy=200.0, color=(0.3, 0.5, 1.0)),
                area("DISK", 0.5, place=(1.5, 1.2, 2.5), energy=60.0), sun(1.0, energy=0.4, place=(2.0, -3.0, 4.0)))
     # What a user may set but hardly means. Cycles' picture says what it does.
@@ -127,6 +154,8 @@ def add(index, item):
                             **item["settings"])
     common.look_at(made, TARGET)
     made.scale = item["scale"]
+    if item.get("image"):
+        shine_with_image(made.data)
     if item["parent"] is not None:
         parent = common.add_object("Parent", None, (0.5, 0.25, 0.0))
         parent.scale = item["parent"]

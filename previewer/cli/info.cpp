@@ -51,6 +51,20 @@ const char* type_name(scene::LightType type) {
     return "";
 }
 
+const char* shape_name(scene::AreaShape shape) {
+    switch (shape) {
+        case scene::AreaShape::square:
+            return "square";
+        case scene::AreaShape::rectangle:
+            return "rectangle";
+        case scene::AreaShape::disk:
+            return "disk";
+        case scene::AreaShape::ellipse:
+            return "ellipse";
+    }
+    return "";
+}
+
 std::string node_name(const scene::Scene& scene, int index) {
     const std::string& name = scene.nodes[static_cast<size_t>(index)].name;
     return name.empty() ? fmt::format("node {}", index) : name;
@@ -58,6 +72,26 @@ std::string node_name(const scene::Scene& scene, int index) {
 
 json vector_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
+}
+
+// What gives a light its penumbrae and its beam, angles in degrees.
+json extent_json(const scene::Light& light) {
+    const auto degrees = [](float radians) { return glm::degrees(static_cast<double>(radians)); };
+    switch (light.type) {
+        case scene::LightType::sun:
+            return {{"angle_deg", degrees(light.angle_rad)}};
+        case scene::LightType::area:
+            return {{"shape", shape_name(light.shape)},
+                    {"size_m", {light.size_x_m, light.size_y_m}},
+                    {"spread_deg", degrees(light.spread_rad)}};
+        case scene::LightType::spot:
+            return {{"radius_m", light.radius_m},
+                    {"cone_deg", degrees(light.cone_angle_rad)},
+                    {"blend", light.blend}};
+        case scene::LightType::point:
+            return {{"radius_m", light.radius_m}};
+    }
+    return {};
 }
 
 json lights_json(const scene::Scene& scene) {
@@ -77,9 +111,22 @@ json lights_json(const scene::Scene& scene) {
         } else {
             entry["power_w"] = light.power_w;
         }
+        entry.update(extent_json(light));
         lights.push_back(std::move(entry));
     }
     return lights;
+}
+
+json world_json(const scene::Scene& scene) {
+    json world{{"color", vector_json(glm::dvec3(scene.world.color))},
+               {"strength", scene.world.strength},
+               {"image", nullptr}};
+    if (scene.environment) {
+        world["image"] = {{"name", scene.environment->name},
+                          {"width", scene.environment->width},
+                          {"height", scene.environment->height}};
+    }
+    return world;
 }
 
 json cameras_json(const scene::Scene& scene) {
@@ -149,8 +196,7 @@ json summary_json(const Summary& summary) {
         {"frames", {{"start", scene.frames.start}, {"end", scene.frames.end}, {"fps", scene.frames.fps}}},
         {"render", {{"width", scene.render.width}, {"height", scene.render.height}}},
         {"view", {{"view_transform", scene.view.view_transform}, {"exposure", scene.view.exposure}}},
-        {"world",
-         {{"color", vector_json(glm::dvec3(scene.world.color))}, {"strength", scene.world.strength}}},
+        {"world", world_json(scene)},
         {"lights", lights_json(scene)},
         {"cameras", cameras_json(scene)},
         {"animations", animations_json(scene)},
@@ -174,18 +220,44 @@ std::string version_text(const std::vector<int>& version) {
     return version.empty() ? "unknown" : fmt::format("{}", fmt::join(version, "."));
 }
 
+// Of an entry of lights_json: ", radius 0.1 m" and the like; nothing for what is 0.
+std::string extent_text(const json& light) {
+    std::string text;
+    if (light.contains("shape")) {
+        text += fmt::format(", {} of {:.4g} x {:.4g} m", light["shape"].get<std::string>(),
+                            light["size_m"][0].get<double>(), light["size_m"][1].get<double>());
+        if (light["spread_deg"].get<double>() < 179.99) {
+            text += fmt::format(", spread {:.4g} deg", light["spread_deg"].get<double>());
+        }
+    }
+    if (light.contains("cone_deg")) {
+        text += fmt::format(", cone {:.4g} deg", light["cone_deg"].get<double>());
+    }
+    if (light.value("radius_m", 0.0) > 0.0) {
+        text += fmt::format(", radius {:.4g} m", light["radius_m"].get<double>());
+    }
+    if (light.value("angle_deg", 0.0) > 0.0) {
+        text += fmt::format(", angle {:.4g} deg", light["angle_deg"].get<double>());
+    }
+    return text;
+}
+
 void print_lights(const scene::Scene& scene, int count) {
     fmt::print("lights      {}\n", count);
     for (const json& light : lights_json(scene)) {
         const bool sun = light.contains("irradiance_w_m2");
-        fmt::print("  {:<20} {:<5} {:.6g} {}{}\n", light["name"].get<std::string>(),
+        fmt::print("  {:<20} {:<5} {:.6g} {}{}{}\n", light["name"].get<std::string>(),
                    light["type"].get<std::string>(),
                    sun ? light["irradiance_w_m2"].get<double>() : light["power_w"].get<double>(),
-                   sun ? "W/m2" : "W", light["cast_shadow"].get<bool>() ? "" : ", casts no shadow");
+                   sun ? "W/m2" : "W", extent_text(light),
+                   light["cast_shadow"].get<bool>() ? "" : ", casts no shadow");
     }
     const glm::vec3 radiance = scene.world.color * scene.world.strength;
-    fmt::print("world       {:.4g} {:.4g} {:.4g} W/(m2 sr){}\n", radiance.r, radiance.g, radiance.b,
-               scene.from_blender ? "" : " (a default)");
+    const std::string source = scene.environment
+                                   ? fmt::format(" in the mean, image {} ({} x {})", scene.environment->name,
+                                                 scene.environment->width, scene.environment->height)
+                                   : std::string(scene.from_blender ? "" : " (a default)");
+    fmt::print("world       {:.4g} {:.4g} {:.4g} W/(m2 sr){}\n", radiance.r, radiance.g, radiance.b, source);
 }
 
 void print_cameras(const scene::Scene& scene) {

@@ -48,7 +48,8 @@ const char* bounce_option(const RenderOptions& o) {
         {{"--bounce-vpls", o.bounce_vpls.has_value()}, {"--bounce-source", o.bounce_source.has_value()}});
 }
 
-const char* vpl_option(const RenderOptions& o) {
+// Imperfect maps of lights with a size are drawn as those of virtual point lights are, in any technique.
+const char* vpl_option(const RenderOptions& o, const Settings& s) {
     const char* maps = first_given({{"--visibility", o.visibility.has_value()},
                                     {"--ism-size", o.ism_size.has_value()},
                                     {"--map-projection", o.map_projection.has_value()}});
@@ -61,7 +62,8 @@ const char* vpl_option(const RenderOptions& o) {
                                       {"--simplify-error", o.simplify_error.has_value()},
                                       {"--near-field", o.near_field.has_value()},
                                       {"--glossy", o.glossy.has_value()}});
-    for (const char* option : {lights, maps, splat_option(o), bounce_option(o)}) {
+    const char* splats = s.direct_shadows == DirectShadows::ism ? nullptr : splat_option(o);
+    for (const char* option : {lights, maps, splats, bounce_option(o)}) {
         if (option != nullptr) {
             return option;
         }
@@ -74,7 +76,7 @@ std::string technique_conflict(const RenderOptions& o, const Settings& s) {
         return fmt::format("--technique and --preset {} both choose the technique; give one of them",
                            *o.preset);
     }
-    if (const char* option = vpl_option(o); option != nullptr && s.technique != Technique::ism) {
+    if (const char* option = vpl_option(o, s); option != nullptr && s.technique != Technique::ism) {
         return fmt::format("{} is of virtual point lights, which technique {} does not have", option,
                            name_of(s.technique));
     }
@@ -117,7 +119,7 @@ std::string emitter_conflict(const RenderOptions& o, const Settings& s) {
 }
 
 std::string map_conflict(const RenderOptions& o, const Settings& s) {
-    const char* splats = splat_option(o);
+    const char* splats = s.direct_shadows == DirectShadows::ism ? nullptr : splat_option(o);
     const char* maps = o.ism_size ? "--ism-size" : splats;
     if (s.visibility == Visibility::none && maps != nullptr) {
         return fmt::format(
@@ -142,6 +144,11 @@ std::string map_conflict(const RenderOptions& o, const Settings& s) {
             "{} has no effect without simplified meshes; give --visibility simplified or --shading hybrid",
             simplify);
     }
+    return {};
+}
+
+// Of how points are splatted.
+std::string splat_conflict(const RenderOptions& o, const Settings& s) {
     const bool disks = s.splat == Splat::disks;
     if (!disks && o.large_triangles) {
         return fmt::format(
@@ -216,12 +223,13 @@ std::string option_conflict(const RenderOptions& o, const Settings& s) {
         return "--rsm-lowres has no effect with --rsm-interpolation off";
     }
     if (s.technique != Technique::ism) {
-        return {};
+        return splat_conflict(o, s);
     }
     if (const char* option = bounce_option(o); option != nullptr && s.bounces == 1) {
         return fmt::format("{} is of further bounces; give --bounces 2 or more", option);
     }
-    return map_conflict(o, s);
+    const std::string conflict = map_conflict(o, s);
+    return conflict.empty() ? splat_conflict(o, s) : conflict;
 }
 
 }  // namespace bounce::cli

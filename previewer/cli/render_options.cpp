@@ -315,22 +315,28 @@ void RenderOptions::add_to(CLI::App& command) {
     group.one_of(
         "--direct-shadows", direct_shadows, setting_names<DirectShadows>(),
         "Shadows of lights with a size: hard, from the light's centre; vpl: soft, from many places on "
-        "it, with a shadow map each; convolution: soft, from one map of the centre, approximated",
+        "it, with a shadow map each; convolution: soft, from one map of the centre, approximated; ism: soft, "
+        "from many places with an imperfect shadow map each, approximated",
         name_of(Settings{}.direct_shadows));
+    const Settings imperfect{.direct_shadows = DirectShadows::ism};
     group.number("--transparent-layers", transparent_layers,
                  fmt::format("Blended surfaces that a pixel shows at most, from the camera on, 0 to {}; 0: "
                              "cut out at one half",
                              k_most_transparent_layers),
                  std::to_string(Settings{}.transparent_layers));
     group.number("--shadow-samples", shadow_samples,
-                 fmt::format("Soft shadows: places on a light, {} to {}, a power of two",
-                             k_least_shadow_samples, k_most_shadow_samples),
-                 std::to_string(Settings{}.shadow_samples));
+                 fmt::format("Soft shadows: places on a light, {} to {}, with imperfect maps to {}, a power "
+                             "of two",
+                             k_least_shadow_samples, k_most_shadow_samples, k_most_imperfect_samples),
+                 fmt::format("{}, with imperfect maps {}", Settings{}.used_shadow_samples(),
+                             imperfect.used_shadow_samples()));
     group.number(
         "--soft-shadow-size", soft_shadow_size,
-        "Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a cube's "
-        "faces",
-        std::to_string(Settings{}.soft_shadow_size));
+        fmt::format("Soft shadows: side of the map at each of them in texels, 2 to 16384; half of it for a "
+                    "cube's faces; of an imperfect one a power of two, {} to {}",
+                    k_least_ism_size, k_most_ism_size),
+        fmt::format("{}, of an imperfect one {}", Settings{}.used_soft_shadow_size(),
+                    imperfect.used_soft_shadow_size()));
     group.number(
         "--convolution-order", convolution_order,
         fmt::format("Convolution shadows: terms of the Fourier series of a depth comparison, 1 to {}",
@@ -406,6 +412,14 @@ Settings RenderOptions::settings_without_scene() const {
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);
     set(bounce, out.shown_bounce);
+    // 0 is the settings' word for what a kind of shadow has by default.
+    for (const auto& [name, given, least] :
+         {std::tuple("--shadow-samples", shadow_samples, k_least_shadow_samples),
+          std::tuple("--soft-shadow-size", soft_shadow_size, k_least_map_size)}) {
+        if (given && *given == 0) {
+            throw usage_error(fmt::format("{} is 0; give a number from {}", name, least));
+        }
+    }
     if (vpl && *vpl < 0) {
         throw usage_error(fmt::format("--vpl is {}; lights are counted from 0", *vpl));
     }

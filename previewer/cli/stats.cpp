@@ -72,6 +72,21 @@ double short_digits(float value) {
     return std::stod(fmt::format("{}", value));
 }
 
+// How points are splatted into imperfect shadow maps.
+void add_splats(const Settings& s, ordered_json& out) {
+    out["points"] = s.ism_points > 0 ? ordered_json(s.ism_points) : ordered_json("auto");
+    out["splat"] = name_of(s.splat);
+    out["hull"] = s.drop_hull ? "drop" : "splat";
+    if (s.splat == Splat::disks) {
+        out["large_triangles"] = s.large_triangles;
+        return;
+    }
+    out["pull_push"] = name_of(s.pull_push);
+    out["pull_push_levels"] = s.pull_push_levels;
+    out["pull_threshold"] = short_digits(s.pull_threshold);
+    out["push_threshold"] = short_digits(s.push_threshold);
+}
+
 ordered_json settings_json(const Settings& s) {
     ordered_json out = {{"width", s.width},
                         {"height", s.height},
@@ -85,11 +100,11 @@ ordered_json settings_json(const Settings& s) {
                         {"emitter_panels", s.emitter_panels},
                         {"transparent_layers", s.transparent_layers}};
     out["direct_shadows"] = name_of(s.direct_shadows);
-    if (s.direct_shadows == DirectShadows::vpl) {
-        out["shadow_samples"] = s.shadow_samples;
-        out["soft_shadow_size"] = s.soft_shadow_size;
+    if (s.direct_shadows == DirectShadows::vpl || s.direct_shadows == DirectShadows::ism) {
+        out["shadow_samples"] = s.used_shadow_samples();
+        out["soft_shadow_size"] = s.used_soft_shadow_size();
     } else if (s.direct_shadows == DirectShadows::convolution) {
-        out["soft_shadow_size"] = s.soft_shadow_size;
+        out["soft_shadow_size"] = s.used_soft_shadow_size();
         out["convolution_order"] = s.convolution_order;
     }
     if (s.technique != Technique::direct) {
@@ -103,6 +118,9 @@ ordered_json settings_json(const Settings& s) {
         out["rsm_lowres"] = s.lowres_step;
     }
     if (s.technique != Technique::ism) {
+        if (s.direct_shadows == DirectShadows::ism) {
+            add_splats(s, out);
+        }
         return out;
     }
     out["vpls"] = s.vpls;
@@ -127,18 +145,8 @@ ordered_json settings_json(const Settings& s) {
     if (s.visibility != Visibility::none) {
         out["ism_size"] = s.ism_size;
     }
-    if (s.visibility == Visibility::ism) {
-        out["points"] = s.ism_points > 0 ? ordered_json(s.ism_points) : ordered_json("auto");
-        out["splat"] = name_of(s.splat);
-        out["hull"] = s.drop_hull ? "drop" : "splat";
-        if (s.splat == Splat::disks) {
-            out["large_triangles"] = s.large_triangles;
-        } else {
-            out["pull_push"] = name_of(s.pull_push);
-            out["pull_push_levels"] = s.pull_push_levels;
-            out["pull_threshold"] = short_digits(s.pull_threshold);
-            out["push_threshold"] = short_digits(s.push_threshold);
-        }
+    if (s.visibility == Visibility::ism || s.direct_shadows == DirectShadows::ism) {
+        add_splats(s, out);
     }
     return out;
 }
@@ -152,6 +160,7 @@ ordered_json counts_json(const FrameReport& report) {
             {"rsm_samples", report.rsm_samples},
             {"points", report.points},
             {"points_a_map", report.points_a_map},
+            {"shadow_points_a_map", report.shadow_points_a_map},
             {"large_triangles", report.large_triangles},
             {"map_size", report.map_size},
             {"atlas", {report.atlas_width, report.atlas_height}}};

@@ -12,7 +12,9 @@ namespace bounce::gpu {
 // shadowing, single scattering). n_dot_v: cosine between normal and viewer.
 [[nodiscard]] glm::dvec2 environment_brdf(double n_dot_v, double roughness);
 
-// The same for size x size cosines (columns) and roughnesses (rows), from 0 to 1.
-[[nodiscard]] std::vector<glm::vec2> environment_brdf_table(int size);
+// For size x size cosines (columns) and roughnesses (rows), from 0 to 1: the two above, and how to find the
+// lobe among those seen head on by its first moment: z, radians from the mirrored view towards the normal of
+// its mean direction; w, the roughness of the lobe seen head on whose mean direction is as long.
+[[nodiscard]] std::vector<glm::vec4> environment_brdf_table(int size);
 
 }  // namespace bounce::gpu

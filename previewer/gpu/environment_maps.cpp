@@ -108,10 +108,10 @@ EnvironmentMaps::EnvironmentMaps(const scene::Environment& environment) {
                                                  .levels = ENVIRONMENT_LEVELS});
     interpolate(glossy, GL_REPEAT);
 
-    brdf =
-        gl::Texture("world image, lobes", {.format = GL_RG32F, .width = k_brdf_size, .height = k_brdf_size});
-    const std::vector<glm::vec2> table = environment_brdf_table(k_brdf_size);
-    glTextureSubImage2D(brdf.id(), 0, 0, 0, k_brdf_size, k_brdf_size, GL_RG, GL_FLOAT, table.data());
+    brdf = gl::Texture("world image, lobes",
+                       {.format = GL_RGBA32F, .width = k_brdf_size, .height = k_brdf_size});
+    const std::vector<glm::vec4> table = environment_brdf_table(k_brdf_size);
+    glTextureSubImage2D(brdf.id(), 0, 0, 0, k_brdf_size, k_brdf_size, GL_RGBA, GL_FLOAT, table.data());
     interpolate(brdf, GL_CLAMP_TO_EDGE);
 }
 

@@ -18,6 +18,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
         if (context.scene.has_specular() && light.glossy) defines["SPECULAR"] = "1";
         if (light.sized) defines["SIZED"] = "1";
+        if (light.lobes != nullptr) defines["LOBES"] = "1";
         if (shadow_map.valid()) {
             builder.read(shadow_map);
             builder.read(gbuffer.geometric_normal);
@@ -26,6 +27,7 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
         if (soft.shares.valid()) {
             builder.read(soft.shares);
             defines["SOFT_SHADOW"] = "1";
+            if (!light.tints.empty()) defines["TINTED"] = "1";
         }
         if (soft.flags.valid()) {
             builder.read(soft.flags);
@@ -39,6 +41,9 @@ TextureHandle add_direct_light(FrameGraph& graph, const PassContext& context, co
             if (shadow_map.valid()) {
                 resources.texture(shadow_map).bind(TEX_SHADOW);
                 resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
+            }
+            if (light.lobes != nullptr) {
+                light.lobes->bind();
             }
             if (soft.shares.valid()) {
                 resources.texture(soft.shares).bind_image(IMG_IN, GL_READ_ONLY);

@@ -60,7 +60,7 @@ TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             const auto tiles = static_cast<GLuint>(set.map_size / GROUP_MAP_TILE);
             gl::Defines defines{{"TRIANGLE_COUNT", std::to_string(inputs.large_triangles)}};
-            if (set.distant) defines["DISTANT"] = "1";
+            defines.merge(map_defines(set));
             context.programs.compute("passes/ism_triangles.comp", defines).use();
             glDispatchCompute(tiles, tiles, static_cast<GLuint>(set.maps));
             finish_writes();
@@ -78,7 +78,7 @@ TextureHandle add_close(FrameGraph& graph, const PassContext& context, const Vpl
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
         return [context, set, atlas, out](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
-            if (set.distant) defines["DISTANT"] = "1";
+            defines.merge(map_defines(set));
             context.programs.compute("passes/ism_close.comp", defines).use();
             context.uniforms.bind(UBO_ISM, set.uniforms);
             resources.texture(atlas).bind_image(IMG_IN, GL_READ_ONLY);
@@ -104,7 +104,7 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
         return [context, inputs, set, out, has_triangles](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) defines["SHARED"] = "1";
-            if (set.distant) defines["DISTANT"] = "1";
+            defines.merge(map_defines(set));
             if (inputs.close) defines["CLOSE"] = "1";
             if (has_triangles) defines["OVER_TRIANGLES"] = "1";
             if (!fits_shared(set) && !has_triangles) clear_atlas(resources.texture(out), set);
@@ -167,6 +167,7 @@ IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInp
                 clear_atlas(resources.texture(out.splats), set);
             }
             if (fused) defines.merge(pull_push_defines(inputs.pull_push));
+            defines.merge(map_defines(set));
             context.programs.compute("passes/ism_squares.comp", defines).use();
             bind_set(context, resources, set);
             resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
@@ -196,7 +197,8 @@ TextureHandle add_gl_points(FrameGraph& graph, const PassContext& context, const
             target.bind();
             const float far_depth = 0.0F;
             glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
-            context.programs.raster("passes/ism_points.vert", "passes/ism_points.frag", {}).use();
+            context.programs.raster("passes/ism_points.vert", "passes/ism_points.frag", map_defines(set))
+                .use();
             bind_set(context, resources, set);
             resources.buffer(inputs.scene.points).bind_storage(SSBO_POINTS);
             context.scene.bind_vertex_array();  // nothing is read from it, but a core profile wants one
@@ -214,6 +216,14 @@ TextureHandle add_gl_points(FrameGraph& graph, const PassContext& context, const
 }
 
 }  // namespace
+
+gl::Defines map_defines(const VplSet& set) {
+    gl::Defines defines;
+    if (set.distant) defines["DISTANT"] = "1";
+    if (set.window) defines["WINDOW"] = "1";
+    if (set.both_sides) defines["BOTH_SIDES"] = "1";
+    return defines;
+}
 
 IsmAtlas add_ism(FrameGraph& graph, const PassContext& context, const IsmInputs& inputs, const VplSet& set) {
     switch (inputs.splat) {

@@ -46,6 +46,8 @@ struct VplSet {
     int cell_columns = 1;  // of a subset's cells of the sampled square
     bool image = false;    // those of the world's image: what they light has its reflection from the image
     bool distant = false;  // lights at infinity, with orthographic maps (renderer/world_lights.h)
+    bool window = false;   // maps of a part of the hemisphere: places on a light (renderer/imperfect_setup.h)
+    bool both_sides = false;  // the second half of the maps is of the hemispheres behind the first
 };
 
 struct IsmInputs {
@@ -55,6 +57,9 @@ struct IsmInputs {
     bool close = true;  // disks: bare places inside surfaces (shaders/lib/ism_close.glsl)
     PullPushSettings pull_push;
 };
+
+// How a set's maps are compiled in: DISTANT, WINDOW, BOTH_SIDES.
+[[nodiscard]] gl::Defines map_defines(const VplSet& set);
 
 // Imperfect shadow maps of a set of lights, in one atlas of R32UI (shaders/lib/ism.glsl).
 struct IsmAtlas {

@@ -8,6 +8,7 @@
 #include "gl/program.h"
 #include "gpu/environment_maps.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/lobe_table.h"
 #include "gpu/uniform_arena.h"
 
 namespace bounce::passes {
@@ -45,9 +46,12 @@ struct LightPass {
     int rsm_size = 0;
     int shadow_size = 0;
     bool casts_shadow = true;
-    bool sized = false;  // it has a radius, or a sun's angle
-    bool glossy = true;  // false: its reflection is drawn with the world's image
+    bool sized = false;                     // it has a radius, or a sun's angle
+    bool glossy = true;                     // false: its reflection is drawn with the world's image
+    const gpu::LobeTable* lobes = nullptr;  // where glossy lobes reflect it with its size
     SoftMaps soft;
+    std::vector<glm::vec3>
+        tints;  // of each place that throws its soft shadow, over the light's mean; empty: even
     // Light sent out, W (sun: through the scene's cross-section); decides its share of the samples.
     double flux_w = 0.0;
 };

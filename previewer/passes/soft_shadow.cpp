@@ -18,23 +18,64 @@ int tiles_along(int pixels) {
     return (pixels + GROUP_2D - 1) / GROUP_2D;
 }
 
-void declare_maps(PassBuilder& builder, const GBuffer& gbuffer, TextureHandle maps) {
+// What a light's places see: maps of triangles, or imperfect ones.
+struct Maps {
+    TextureHandle triangles;
+    ImperfectMaps imperfect;
+    [[nodiscard]] int chunks(const LightPass& light) const {
+        return imperfect.empty() ? static_cast<int>(light.soft.chunks.size())
+                                 : imperfect.places / SHADOW_VIEW_CHUNK;
+    }
+};
+
+gl::Defines maps_defines(const LightPass& light, const Maps& maps) {
+    gl::Defines defines = maps.imperfect.empty() ? soft_defines(light) : light_defines(light);
+    if (!light.tints.empty()) defines["TINTED"] = "1";
+    if (maps.imperfect.empty()) {
+        return defines;
+    }
+    defines["IMPERFECT"] = "1";
+    if (maps.imperfect.slope_bias) defines["SLOPE_BIAS"] = "1";
+    defines.merge(map_defines(maps.imperfect.set));
+    return defines;
+}
+
+void declare_maps(PassBuilder& builder, const GBuffer& gbuffer, const Maps& maps) {
     read_gbuffer(builder, gbuffer);
     builder.read(gbuffer.geometric_normal);
-    builder.read(maps);
+    if (maps.imperfect.empty()) {
+        builder.read(maps.triangles);
+    } else {
+        builder.read(maps.imperfect.set.atlas);
+        builder.read(maps.imperfect.set.vpls);
+    }
 }
 
 void bind_maps(const PassContext& context, const PassResources& resources, const GBuffer& gbuffer,
-               const LightPass& light, TextureHandle maps) {
+               const LightPass& light, const Maps& maps) {
     context.uniforms.bind(UBO_FRAME, context.frame);
     context.uniforms.bind(UBO_LIGHT, light.uniforms);
     bind_gbuffer(resources, gbuffer);
     resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
-    resources.texture(maps).bind(TEX_SHADOW);
+    if (maps.imperfect.empty()) {
+        resources.texture(maps.triangles).bind(TEX_SHADOW);
+    } else {
+        context.uniforms.bind(UBO_ISM, maps.imperfect.set.uniforms);
+        resources.buffer(maps.imperfect.set.vpls).bind_storage(SSBO_VPLS);
+        resources.texture(maps.imperfect.set.atlas).bind_image(IMG_ISM, GL_READ_ONLY);
+    }
+}
+
+// The next eight places.
+void bind_chunk(const PassContext& context, const LightPass& light, const Maps& maps, int chunk) {
+    if (maps.imperfect.empty()) {
+        context.uniforms.bind(UBO_SHADOW_VIEWS, light.soft.chunks[static_cast<size_t>(chunk)]);
+    }
+    glUniform1i(1, chunk * SHADOW_VIEW_CHUNK);
 }
 
 BufferHandle add_probe(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                       const LightPass& light, TextureHandle maps) {
+                       const LightPass& light, const Maps& maps) {
     BufferHandle flags;
     graph.add_pass("soft shadow probe: " + light.name, [&](PassBuilder& builder) {
         declare_maps(builder, gbuffer, maps);
@@ -44,18 +85,17 @@ BufferHandle add_probe(FrameGraph& graph, const PassContext& context, const GBuf
             constexpr GLuint none = 0;
             glClearNamedBufferData(resources.buffer(flags).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
                                    &none);
-            context.programs.compute("passes/soft_probe.comp", soft_defines(light)).use();
+            context.programs.compute("passes/soft_probe.comp", maps_defines(light, maps)).use();
             bind_maps(context, resources, gbuffer, light, maps);
             resources.buffer(flags).bind_storage(SSBO_TILE_FLAGS);
             // A block of pixels has one for each chunk, and a tile has whole blocks.
-            const int chunks = static_cast<int>(light.soft.chunks.size());
+            const int chunks = maps.chunks(light);
             const int bits = std::bit_width(static_cast<unsigned>(chunks)) - 1;
             const int width = 1 << ((bits + 1) / 2);
             const int height = chunks / width;
             for (int chunk = 0; chunk < chunks; ++chunk) {
-                context.uniforms.bind(UBO_SHADOW_VIEWS, light.soft.chunks[static_cast<size_t>(chunk)]);
+                bind_chunk(context, light, maps, chunk);
                 glUniform4i(0, width, height, chunk % width, chunk / width);
-                glUniform1i(1, chunk * SHADOW_VIEW_CHUNK);
                 dispatch_2d((context.width + width - 1) / width, (context.height + height - 1) / height);
             }
             finish_writes();
@@ -92,32 +132,45 @@ Tiles add_tiles(FrameGraph& graph, const PassContext& context, const LightPass& 
 }
 
 TextureHandle add_penumbra(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
-                           const LightPass& light, TextureHandle maps, const Tiles& tiles) {
+                           const LightPass& light, const Maps& maps, const Tiles& tiles) {
     TextureHandle shares;
     graph.add_pass("soft shadow: " + light.name, [&](PassBuilder& builder) {
         declare_maps(builder, gbuffer, maps);
         builder.read(tiles.list);
         builder.read(tiles.counts);
-        shares = builder.create_texture(
-            "soft shadow", {.format = GL_RG32F, .width = context.width, .height = context.height});
+        const GLenum format = light.tints.empty() ? GL_RG32F : GL_RGBA32F;
+        shares = builder.create_texture("soft shadow",
+                                        {.format = format, .width = context.width, .height = context.height});
         return [context, gbuffer, light, maps, tiles, shares](const PassResources& resources) {
             bind_maps(context, resources, gbuffer, light, maps);
             resources.buffer(tiles.list).bind_storage(SSBO_PIXEL_LIST);
             resources.buffer(tiles.counts).bind_storage(SSBO_DISPATCH);
             resources.texture(shares).bind_image(IMG_OUT, GL_READ_WRITE);
             glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(tiles.counts).id());
-            for (size_t chunk = 0; chunk < light.soft.chunks.size(); ++chunk) {
-                gl::Defines defines = soft_defines(light);
+            for (int chunk = 0; chunk < maps.chunks(light); ++chunk) {
+                gl::Defines defines = maps_defines(light, maps);
                 if (chunk == 0) defines["FIRST_CHUNK"] = "1";
                 context.programs.compute("passes/soft_penumbra.comp", defines).use();
-                context.uniforms.bind(UBO_SHADOW_VIEWS, light.soft.chunks[chunk]);
-                glUniform1i(1, static_cast<GLint>(chunk) * SHADOW_VIEW_CHUNK);
+                bind_chunk(context, light, maps, chunk);
+                if (!light.tints.empty()) {
+                    glUniform3fv(2, SHADOW_VIEW_CHUNK,
+                                 &light.tints[static_cast<size_t>(chunk) * SHADOW_VIEW_CHUNK].x);
+                }
                 glDispatchComputeIndirect(0);
                 finish_writes();
             }
         };
     });
     return shares;
+}
+
+SoftShadow add_shares(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                      const LightPass& light, const Maps& maps) {
+    SoftShadow out;
+    out.flags = add_probe(graph, context, gbuffer, light, maps);
+    const Tiles tiles = add_tiles(graph, context, light, out.flags);
+    out.shares = add_penumbra(graph, context, gbuffer, light, maps, tiles);
+    return out;
 }
 
 }  // namespace
@@ -147,11 +200,12 @@ TextureHandle add_soft_maps(FrameGraph& graph, const PassContext& context, const
 
 SoftShadow add_soft_shadow(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
                            const LightPass& light, TextureHandle maps) {
-    SoftShadow out;
-    out.flags = add_probe(graph, context, gbuffer, light, maps);
-    const Tiles tiles = add_tiles(graph, context, light, out.flags);
-    out.shares = add_penumbra(graph, context, gbuffer, light, maps, tiles);
-    return out;
+    return add_shares(graph, context, gbuffer, light, {maps, {}});
+}
+
+SoftShadow add_imperfect_shadow(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
+                                const LightPass& light, const ImperfectMaps& maps) {
+    return add_shares(graph, context, gbuffer, light, {{}, maps});
 }
 
 }  // namespace bounce::passes

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "renderer/light_tints.h"
 #include "renderer/penumbra.h"
 
 namespace bounce {
@@ -38,12 +39,14 @@ int columns_of(int count, double half_x, double half_y) {
 
 int count_bounce_places(const scene::LightInstance& instance, const scene::Light& light,
                         double scene_diagonal_m, int most) {
-    const bool large = light.type == scene::LightType::area && scene_diagonal_m > 0.0 &&
-                       2.0 * light_extent(instance, light) >= k_large_light * scene_diagonal_m;
+    const bool large =
+        light.type == scene::LightType::area && scene_diagonal_m > 0.0 &&
+        (light.pattern.width > 0 || 2.0 * light_extent(instance, light) >= k_large_light * scene_diagonal_m);
     return large ? most : 1;
 }
 
-std::vector<LightSetup> bounce_places(const LightSetup& light, int count) {
+std::vector<LightSetup> bounce_places(const LightSetup& light, int count,
+                                      const scene::LightPattern& pattern) {
     if (count == 1) {
         return {light};
     }
@@ -54,6 +57,14 @@ std::vector<LightSetup> bounce_places(const LightSetup& light, int count) {
     // The mean square along an axis of an ellipse is 1/4.
     const double shape = light.gpu.map.w > 0.5F ? std::sqrt(0.75) : 1.0;
     const float size = std::max(std::floor(light.gpu.map.x / std::sqrt(static_cast<float>(count))), 1.0F);
+    std::vector<glm::vec3> tints(static_cast<size_t>(count), glm::vec3(1.0F));
+    if (pattern.width > 0) {
+        std::vector<glm::dvec2> places;
+        for (int i = 0; i < count; ++i) {
+            places.push_back(shape * glm::dvec2(along(i % columns, columns), along(i / columns, rows)));
+        }
+        tints = light_tints(pattern, places, light.gpu.map.w > 0.5F);
+    }
     std::vector<LightSetup> out;
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 offset =
@@ -63,8 +74,9 @@ std::vector<LightSetup> bounce_places(const LightSetup& light, int count) {
         place.name = fmt::format("{}, place {} of {}", light.name, i + 1, count);
         place.flux_w /= count;
         place.gpu.position += glm::vec4(glm::vec3(offset), 0.0F);
-        place.gpu.intensity =
-            glm::vec4(glm::vec3(light.gpu.intensity) / static_cast<float>(count), light.gpu.intensity.w);
+        place.gpu.intensity = glm::vec4(
+            glm::vec3(light.gpu.intensity) * tints[static_cast<size_t>(i)] / static_cast<float>(count),
+            light.gpu.intensity.w);
         place.gpu.cone.z = 1.0F / static_cast<float>(count);
         place.gpu.map.x = size;
         for (LightFace& face : place.faces) {

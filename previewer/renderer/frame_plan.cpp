@@ -100,6 +100,11 @@ bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& l
         plan.approximations.push_back(
             fmt::format("light {}: its soft shadow is convolved from one map of its centre", light.name));
     }
+    if (settings.direct_shadows == DirectShadows::ism) {
+        plan.imperfect_shadows = true;
+        plan.approximations.push_back(
+            fmt::format("light {}: its soft shadow is of imperfect maps, drawn from points", light.name));
+    }
     return true;
 }
 
@@ -122,6 +127,13 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
         }
         plan.soft.push_back(plan.shadows.back() &&
                             throws_penumbra(pose.light_instances[i], light, settings, sight, plan));
+        if (light.pattern.width > 0 && plan.direct &&
+            !(plan.soft.back() && settings.direct_shadows != DirectShadows::convolution)) {
+            plan.approximations.push_back(
+                fmt::format("light {}: shines with its image's mean colour, as it throws no soft shadow from "
+                            "places on it",
+                            light.name));
+        }
         plan.veiled.push_back(plan.blends && plan.shadows.back() && !plan.soft.back() &&
                               settings.direct_shadows != DirectShadows::hard);
         const bool bounces = plan.indirect && !plan.takes_light.back();

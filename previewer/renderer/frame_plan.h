@@ -40,14 +40,15 @@ struct FramePlan {
     bool emitters = false;        // emissive surfaces light others
     int emitter_bounces = 0;      // of their light
     bool emitters_occluded = false;
-    bool blends = false;            // blended surfaces have layers of their own
-    int blend_layers = 0;           // at most so many, where there are any
-    bool motion = false;            // nothing but where surfaces were in the frame before
-    std::vector<int> lights;        // into Pose::light_instances, those that send light
-    std::vector<bool> takes_light;  // per entry of `lights`: power below 0; it has no bounce
-    std::vector<bool> shadows;      // per entry of `lights`
-    std::vector<bool> soft;         // the same: those whose shadow has a penumbra
-    std::vector<int> places;        // the same: that its bounced light starts from
+    bool blends = false;             // blended surfaces have layers of their own
+    int blend_layers = 0;            // at most so many, where there are any
+    bool motion = false;             // nothing but where surfaces were in the frame before
+    std::vector<int> lights;         // into Pose::light_instances, those that send light
+    std::vector<bool> takes_light;   // per entry of `lights`: power below 0; it has no bounce
+    std::vector<bool> shadows;       // per entry of `lights`
+    std::vector<bool> soft;          // the same: those whose shadow has a penumbra
+    bool imperfect_shadows = false;  // of these some have imperfect maps
+    std::vector<int> places;         // parallel to `lights`: that its bounced light starts from
     std::vector<bool>
         veiled;  // the same: those that blended surfaces let a part of through, though their shadow is hard
     std::vector<LeftOut> left_out;            // and why

@@ -47,13 +47,16 @@ passes::Layer layer_of(Show show) {
 struct ShadowMaps {
     TextureHandle hard;
     TextureHandle soft;
+    passes::ImperfectMaps imperfect;
 };
 
 // One light on a G-buffer's surfaces, added to `sum`.
 TextureHandle add_light_of(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                            const passes::LightPass& light, const ShadowMaps& maps, TextureHandle sum) {
     using namespace passes;
-    const SoftShadow penumbra = !maps.soft.valid() ? SoftShadow{}
+    const SoftShadow penumbra = !maps.imperfect.empty()
+                                    ? add_imperfect_shadow(graph, in.context, gbuffer, light, maps.imperfect)
+                                : !maps.soft.valid() ? SoftShadow{}
                                 : light.soft.convolution_order > 0
                                     ? add_convolution_shadow(graph, in.context, gbuffer, light, maps.soft)
                                     : add_soft_shadow(graph, in.context, gbuffer, light, maps.soft);
@@ -111,6 +114,20 @@ passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const pas
     } else {
         maps = passes::add_ism(graph, in.context, ism_inputs(in, scene), set);
     }
+    return maps;
+}
+
+// Imperfect maps of places on a light with a size. The light may stand outside of the scene's hull, so that
+// what is on it hides, too.
+passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs& in,
+                                         const passes::ScenePoints& scene, size_t light) {
+    passes::ImperfectMaps maps = in.imperfect[light];
+    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light]);
+    passes::IsmInputs inputs = ism_inputs(in, scene);
+    inputs.large_triangles = static_cast<int>(in.points->large_triangles());
+    inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
+    inputs.close = in.plan.close_world;
+    maps.set.atlas = add_ism(graph, in.context, inputs, maps.set).atlas;
     return maps;
 }
 
@@ -442,11 +459,18 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     TextureHandle direct;
     std::vector<ShadowMaps> shadows(in.lights.size());
     GatherInputs gather{.gbuffer = gbuffer, .sources = {}, .full_sum = in.settings.rsm_full_sum};
+    ScenePoints scene;
+    if (in.plan.imperfect_shadows && in.points != nullptr) {
+        scene = add_point_update(graph, context, *in.points);
+    }
     std::vector<size_t> first_places;  // in gather.sources, of each light that bounces
     for (size_t i = 0; i < in.lights.size(); ++i) {
         const LightPass& light = in.lights[i];
         if (in.plan.direct) {
-            const bool hard = in.plan.shadows[i] && (light.soft.empty() || light.soft.blended_only);
+            if (!in.imperfect[i].empty()) {
+                shadows[i].imperfect = add_imperfect_maps(graph, in, scene, i);
+            }
+            const bool hard = in.plan.shadows[i] && !in.plan.soft[i];
             shadows[i].hard = hard ? add_shadow_map(graph, context, light) : TextureHandle{};
             shadows[i].soft = !light.soft.empty() ? add_soft_maps(graph, context, light) : TextureHandle{};
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
@@ -473,8 +497,9 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     TextureHandle bounced;
     TextureHandle lobes;
     BouncedLights lit;
-    const ScenePoints scene =
-        in.points != nullptr ? add_point_update(graph, context, *in.points) : ScenePoints{};
+    if (!in.plan.imperfect_shadows && in.points != nullptr) {
+        scene = add_point_update(graph, context, *in.points);
+    }
     Emitted emitted;
     std::vector<VplSource> sources;
     if (in.plan.world_occluded) {

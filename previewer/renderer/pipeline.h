@@ -9,6 +9,7 @@
 #include "passes/pass_context.h"
 #include "passes/removed_light.h"
 #include "passes/rsm_gather.h"
+#include "passes/soft_shadow.h"
 #include "passes/vpl_sampling.h"
 #include "renderer/frame_plan.h"
 #include "renderer/settings.h"
@@ -34,7 +35,11 @@ struct PipelineInputs {
     const Settings& settings;
     passes::PassContext context;
     passes::View camera;
-    std::vector<passes::LightPass> lights;     // parallel to plan.lights
+    std::vector<passes::LightPass> lights;  // parallel to plan.lights
+    // Parallel to `lights`: imperfect maps of places on them, and the places' buffers; empty where there are
+    // none.
+    std::vector<passes::ImperfectMaps> imperfect;
+    std::vector<gl::Buffer>* places = nullptr;
     std::vector<BounceSource> bounce_sources;  // in their order, one of each at least
     gpu::PointStore* points = nullptr;         // where the plan needs them
     std::vector<Bounce> bounces;               // plan.bounces of them

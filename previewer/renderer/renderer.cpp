@@ -13,10 +13,12 @@
 #include "gl/debug_output.h"
 #include "passes/deform.h"
 #include "renderer/bounce_places.h"
+#include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
 #include "renderer/light_setup.h"
 #include "renderer/penumbra.h"
 #include "renderer/pipeline.h"
+#include "renderer/settings_check.h"
 #include "renderer/soft_setup.h"
 #include "renderer/world_lights.h"
 
@@ -71,7 +73,8 @@ bool splats_points(const FramePlan& plan, const Settings& settings) {
 }
 
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0 || plan.emitters;
+    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0 || plan.emitters ||
+           plan.imperfect_shadows;
 }
 
 passes::VplSet vpl_set(const IsmLayout& layout) {
@@ -234,9 +237,19 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                  : automatic_points(settings.ism_size, depth_complexity(occluding, around));
         irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
         require_fitting_sums(settings, plan, irsm.points_a_map);
+        if (plan.imperfect_shadows) {
+            const double complexity =
+                depth_complexity(occluding, box_surface_m2(points_->first_ground().rest));
+            out.soft_points = settings.ism_points > 0
+                                  ? settings.ism_points
+                                  : automatic_points(settings.used_soft_shadow_size(), complexity);
+        }
+        const IsmLayout soft = imperfect_layout(settings, settings.used_shadow_samples(), out.soft_points);
         scene::PointCounts counts;
-        counts.points_a_map = static_cast<size_t>(first.points_a_map);
-        counts.occluders = splats ? points_in_all(first) : 0;
+        counts.points_a_map = static_cast<size_t>(
+            std::max(splats || !plan.imperfect_shadows ? first.points_a_map : 0, out.soft_points));
+        counts.occluders =
+            std::max(splats ? points_in_all(first) : 0, plan.imperfect_shadows ? points_in_all(soft) : 0);
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
         IsmLayout most = irsm;
         most.vpls = std::max({most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0,
@@ -245,7 +258,8 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         counts.reflectors = reflected ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
         // What is on the hull hides no place of the scene from another, but the world from both.
-        counts.hull_hides = plan.world_occluded;
+        // Nor do lights of the scene all stand within it.
+        counts.hull_hides = plan.world_occluded || plan.imperfect_shadows;
         points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull,
                           plan.world_bounces > 0);
         out.triangles =
@@ -272,6 +286,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         report.points = points_->occluders();
         report.points_a_map = plan.occluded || plan.emitters_occluded ? first.points_a_map : 0;
         report.large_triangles = points_->large_triangles();
+        report.shadow_points_a_map = out.soft_points;
     }
     if (plan.occluded) {
         report.map_size = first.map_size;
@@ -324,6 +339,43 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     for (int bounce = 1; bounce <= plan.emitter_bounces; ++bounce) {
         out.emitter_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
+    }
+    return out;
+}
+
+std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(const std::vector<Imperfect>& imperfect,
+                                                               const std::vector<Region>& receivers,
+                                                               size_t lights, int points,
+                                                               const Settings& settings, FramePlan& plan) {
+    std::vector<passes::ImperfectMaps> out(lights);
+    places_.clear();
+    places_.resize(lights);
+    for (const Imperfect& light : imperfect) {
+        if (points_->occluders() == 0 && points_->large_triangles() == 0) {
+            plan.left_out.push_back({"soft shadow: " + light.of.name, "no surface has an area"});
+            continue;
+        }
+        const int places = settings.used_shadow_samples();
+        const IsmLayout layout = imperfect_layout(
+            settings, places * imperfect_maps_a_place(light.setup, light.of, receivers), points);
+        const ImperfectSetup made = set_up_imperfect_shadow(light.setup, light.of, receivers, places, layout);
+        places_[light.light] = gl::Buffer::of("places on a light", std::span<const gpu::GpuVpl>(made.maps));
+        passes::ImperfectMaps& maps = out[light.light];
+        maps.places = places;
+        maps.set = vpl_set(layout);
+        maps.set.distant = made.distant;
+        maps.set.window = !made.distant;
+        maps.set.both_sides = made.both_sides;
+        Settings of = settings;
+        of.splat = made.distant ? passes::Splat::disks : settings.splat;  // as the world's
+        maps.slope_bias = of.splat != passes::Splat::disks;
+        const double mean_radius =
+            std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * points)) * gpu_scene_.space().scale;
+        gpu::IsmUniforms uniforms = imperfect_uniforms(layout, of, points_->occluders(), mean_radius);
+        if (points_->occluders() == 0) {  // all surfaces are large triangles
+            maps.set.points_a_map = uniforms.atlas.w = 0;
+        }
+        maps.set.uniforms = uniforms_.add(uniforms);
     }
     return out;
 }
@@ -408,8 +460,17 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         return std::find(flags.begin(), flags.end(), true) != flags.end();
     };
     const bool any_soft = any_of(plan.soft) || any_of(plan.veiled);
+    // What blended surfaces let through of a light without size is in maps of triangles, however many
+    // imperfect ones there are.
+    Settings of_triangles = settings;
+    if (settings.direct_shadows == DirectShadows::ism) {
+        of_triangles.direct_shadows = DirectShadows::vpl;
+        of_triangles.shadow_samples = std::min(settings.shadow_samples, k_most_shadow_samples);
+        of_triangles.soft_shadow_size = 0;
+    }
     const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
+    std::vector<Imperfect> imperfect;
     std::vector<BounceSource> bounce_sources;
     std::vector<double> fluxes;         // of the lights
     std::vector<double> source_fluxes;  // of the sources of bounced light
@@ -438,25 +499,42 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.
         pass.glossy = index < own_lights || index >= of_scene.light_instances.size();
-        if (plan.soft[i] || plan.veiled[i]) {
+        // The light of a spread is cut off within its outline: what a grid of points sees, and no closed
+        // form.
+        const bool flat = setup.profile == PROFILE_AREA && setup.gpu.area.z < 1e-4F;
+        if (plan.direct && pass.glossy && gpu_scene_.has_specular() && (pass.sized || flat)) {
+            lobes_ = lobes_ ? std::move(lobes_) : std::make_unique<gpu::LobeTable>();
+            pass.lobes = lobes_.get();
+        }
+        if (plan.soft[i] && settings.direct_shadows == DirectShadows::ism) {
+            imperfect.push_back({i, setup, pose.lights[static_cast<size_t>(instance.light)]});
+        } else if (plan.soft[i] || plan.veiled[i]) {
             const bool convolved = plan.soft[i] && settings.direct_shadows == DirectShadows::convolution;
             pass.soft = soft_maps(
                 set_up_soft_shadow(setup, pose.lights[static_cast<size_t>(instance.light)], receivers,
                                    gpu::draw_box(gpu_scene_.bounds(), gpu_scene_.space()),
-                                   convolved ? 1 : settings.shadow_samples, settings.soft_shadow_size),
+                                   convolved ? 1 : of_triangles.used_shadow_samples(),
+                                   of_triangles.used_soft_shadow_size()),
                 uniforms_);
             pass.soft.blended_only = plan.veiled[i];
             pass.soft.convolution_order = convolved ? settings.convolution_order : 0;
         }
+        const scene::Light& described = pose.lights[static_cast<size_t>(instance.light)];
+        if (plan.soft[i] && settings.direct_shadows != DirectShadows::convolution &&
+            described.pattern.width > 0) {
+            pass.tints = place_tints(setup, described, settings.used_shadow_samples());
+        }
         lights.push_back(pass);
         fluxes.push_back(pass.flux_w);
-        for (const LightSetup& place : bounce_places(setup, plan.places[i])) {
+        for (const LightSetup& place : bounce_places(setup, plan.places[i], described.pattern)) {
             bounce_sources.push_back({i, plan.places[i] == 1 ? pass : light_pass(place), {}, nullptr});
             source_fluxes.push_back(bounce_sources.back().pass.flux_w);
         }
     }
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report);
+    const std::vector<passes::ImperfectMaps> imperfect_maps =
+        prepare_imperfect(imperfect, receivers, lights.size(), bounces.soft_points, settings, plan);
     std::vector<double> sent = fluxes;
     sent.push_back(plan.emitters ? emitters_->power_w() : 0.0);
     const glm::vec3 radiance = pose.world.color * pose.world.strength;
@@ -511,6 +589,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                             .blends = plan.blends},
                 .camera = camera_view,
                 .lights = lights,
+                .imperfect = imperfect_maps,
+                .places = &places_,
                 .bounce_sources = bounce_sources,
                 .points = points_needed(plan, settings) ? points_.get() : nullptr,
                 .bounces = bounces.bounces,

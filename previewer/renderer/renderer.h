@@ -15,14 +15,17 @@
 #include "gl/texture.h"
 #include "gpu/emitter_store.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/lobe_table.h"
 #include "gpu/point_store.h"
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
 #include "renderer/camera_view.h"
 #include "renderer/environment_world.h"
 #include "renderer/frame_plan.h"
+#include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
 #include "renderer/previous_frame.h"
+#include "renderer/receivers.h"
 #include "renderer/settings.h"
 
 namespace bounce {
@@ -45,8 +48,9 @@ struct FrameReport {
     int points_a_map = 0;  // splatted into each map
     size_t points = 0;     // in the sequence that maps take theirs from
     size_t large_triangles = 0;
-    int map_size = 0;     // texels a side
-    int atlas_width = 0;  // of the first bounce's maps
+    int shadow_points_a_map = 0;  // into each imperfect map of a place on a light
+    int map_size = 0;             // texels a side
+    int atlas_width = 0;          // of the first bounce's maps
     int atlas_height = 0;
     std::optional<passes::RemovedLight> removed;  // where the settings ask for it
     std::vector<std::string> notes;               // why the picture lacks what was asked for
@@ -84,7 +88,14 @@ class Renderer {
         std::vector<Bounce> world_bounces;
         Bounce emitters;  // likewise
         std::vector<Bounce> emitter_bounces;
-        int triangles = 0;  // large ones in the maps of lights within the scene
+        int triangles = 0;    // large ones in the maps of lights within the scene
+        int soft_points = 0;  // in each imperfect map of a place on a light
+    };
+    // A light whose soft shadow has imperfect maps: which of the frame's, and where it stands.
+    struct Imperfect {
+        size_t light = 0;
+        LightSetup setup;
+        scene::Light of;
     };
     // own_lights: as many of the pose's light instances, the first, are the scene's; the others are suns of
     // the world's image.
@@ -99,6 +110,12 @@ class Renderer {
     // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
     void place_emitters(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
                         const Settings& settings, FramePlan& plan);
+    // Their maps, parallel to the frame's `lights`; empty where nothing can throw a shadow. Of the points
+    // that prepare_bounces() has placed, `points` each.
+    std::vector<passes::ImperfectMaps> prepare_imperfect(const std::vector<Imperfect>& imperfect,
+                                                         const std::vector<Region>& receivers, size_t lights,
+                                                         int points, const Settings& settings,
+                                                         FramePlan& plan);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
@@ -113,8 +130,10 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
+    std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
-    scene::EmissivePanels panels_;                   // of so many sides at most
+    std::unique_ptr<gpu::LobeTable> lobes_;  // made when a glossy surface first meets a light with a size
+    scene::EmissivePanels panels_;           // of so many sides at most
     int most_panels_ = -1;
 };
 

@@ -44,7 +44,8 @@ template <>
 const std::map<std::string, DirectShadows>& setting_names<DirectShadows>() {
     static const std::map<std::string, DirectShadows> names = {{"hard", DirectShadows::hard},
                                                                {"vpl", DirectShadows::vpl},
-                                                               {"convolution", DirectShadows::convolution}};
+                                                               {"convolution", DirectShadows::convolution},
+                                                               {"ism", DirectShadows::ism}};
     return names;
 }
 

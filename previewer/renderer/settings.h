@@ -33,6 +33,7 @@ enum class DirectShadows {
     hard,         // from their centres
     vpl,          // from many places on them, a map each
     convolution,  // from one map of the centre, filtered as wide as its blockers make the penumbra
+    ism,          // from many places on them, an imperfect shadow map each
 };
 
 using Splat = passes::Splat;
@@ -136,9 +137,9 @@ struct Settings {
     int transparent_layers = 4;
     int shadow_size = 2048;  // a cube's faces have half of it
     DirectShadows direct_shadows = DirectShadows::vpl;
-    int shadow_samples = 64;     // places on a light, a power of two
-    int soft_shadow_size = 512;  // of the map at each; a cube's faces have half of it
-    int convolution_order = 4;   // terms of the Fourier series, as in the paper
+    int shadow_samples = 0;     // places on a light, a power of two; 0: 64, or 256 with imperfect maps
+    int soft_shadow_size = 0;   // of the map at each; a cube's faces have half of it; 0: 512, imperfect: 128
+    int convolution_order = 4;  // terms of the Fourier series, as in the paper
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
@@ -153,6 +154,12 @@ struct Settings {
     [[nodiscard]] bool simplifies() const {
         return technique == Technique::ism &&
                (visibility == Visibility::simplified || shading == Shading::hybrid);
+    }
+    [[nodiscard]] int used_shadow_samples() const {
+        return shadow_samples > 0 ? shadow_samples : direct_shadows == DirectShadows::ism ? 256 : 64;
+    }
+    [[nodiscard]] int used_soft_shadow_size() const {
+        return soft_shadow_size > 0 ? soft_shadow_size : direct_shadows == DirectShadows::ism ? 128 : 512;
     }
     [[nodiscard]] int used_rsm_size() const {
         return rsm_size > 0 ? rsm_size : technique == Technique::ism ? 256 : 512;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
 #include "renderer/setting_names.h"
 
@@ -39,13 +40,31 @@ std::string bounce_places_refusal(int places) {
                        k_most_bounce_places);
 }
 
-std::string shadow_samples_refusal(int samples) {
-    if (samples >= k_least_shadow_samples && samples <= k_most_shadow_samples &&
+bool is_ism_size(int size, int most) {
+    return size >= k_least_ism_size && size <= most && std::has_single_bit(static_cast<unsigned>(size));
+}
+
+std::string shadow_samples_refusal(const Settings& s) {
+    const int samples = s.used_shadow_samples();
+    const int most =
+        s.direct_shadows == DirectShadows::ism ? k_most_imperfect_samples : k_most_shadow_samples;
+    if (samples >= k_least_shadow_samples && samples <= most &&
         std::has_single_bit(static_cast<unsigned>(samples))) {
         return {};
     }
-    return fmt::format("--shadow-samples is {}; give a power of two from {} to {}", samples,
-                       k_least_shadow_samples, k_most_shadow_samples);
+    const bool with_ism = samples == k_most_imperfect_samples;
+    return fmt::format("--shadow-samples is {}; give a power of two from {} to {}{}", samples,
+                       k_least_shadow_samples, most, with_ism ? ", or --direct-shadows ism" : "");
+}
+
+std::string soft_shadow_size_refusal(const Settings& s) {
+    const int size = s.used_soft_shadow_size();
+    if (s.direct_shadows == DirectShadows::ism && !is_ism_size(size, k_most_ism_size)) {
+        return fmt::format(
+            "--soft-shadow-size is {}; with --direct-shadows ism give a power of two from {} to {}", size,
+            k_least_ism_size, k_most_ism_size);
+    }
+    return map_size_refusal("--soft-shadow-size", size);
 }
 
 std::string ism_refusal(const Settings& s) {
@@ -58,8 +77,7 @@ std::string ism_refusal(const Settings& s) {
         }
     }
     const int most_size = s.draws_triangle_maps() ? k_most_triangle_map_size : k_most_ism_size;
-    if (s.ism_size < k_least_ism_size || s.ism_size > most_size ||
-        !std::has_single_bit(static_cast<unsigned>(s.ism_size))) {
+    if (!is_ism_size(s.ism_size, most_size)) {
         return fmt::format("--ism-size is {}; give a power of two from {} to {}", s.ism_size,
                            k_least_ism_size, most_size);
     }
@@ -129,8 +147,8 @@ std::string settings_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--rsm-lowres", s.lowres_step, 2, 64, "give a number"),
           s.rsm_size == 0 ? std::string() : map_size_refusal("--rsm-size", s.rsm_size),
-          map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s.shadow_samples),
-          map_size_refusal("--soft-shadow-size", s.soft_shadow_size),
+          map_size_refusal("--shadow-size", s.shadow_size), shadow_samples_refusal(s),
+          soft_shadow_size_refusal(s),
           out_of("--transparent-layers", s.transparent_layers, 0, k_most_transparent_layers, "give a number"),
           out_of("--convolution-order", s.convolution_order, 1, k_most_convolution_order, "give a number"),
           s.direct_shadows == DirectShadows::convolution && s.soft_shadow_size > k_most_convolution_size
@@ -169,7 +187,18 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
         refusal = too_large("--shadow-size", settings.shadow_size);
     }
     if (refusal.empty() && settings.direct_shadows != DirectShadows::hard) {
-        refusal = too_large("--soft-shadow-size", settings.soft_shadow_size);
+        refusal = too_large("--soft-shadow-size", settings.used_soft_shadow_size());
+    }
+    if (refusal.empty() && settings.direct_shadows == DirectShadows::ism) {
+        // A light among what it lights has two maps a place.
+        const IsmLayout maps = imperfect_layout(settings, 2 * settings.used_shadow_samples(), 0);
+        if (maps.atlas_width() > limits.texture_size) {
+            refusal = fmt::format(
+                "--shadow-samples {} with --soft-shadow-size {} makes an atlas {} texels wide; this OpenGL "
+                "driver "
+                "holds {}: lower one of them",
+                settings.used_shadow_samples(), maps.map_size, maps.atlas_width(), limits.texture_size);
+        }
     }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;
     for (int bounce = 1; maps && refusal.empty() && bounce <= settings.bounces; ++bounce) {

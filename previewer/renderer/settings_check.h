@@ -23,6 +23,7 @@ constexpr int k_most_rsm_samples = 1 << 15;  // llvmpipe ends a loop after 65,53
 constexpr int k_most_samples = 4096;
 constexpr int k_most_transparent_layers = 16;  // each costs a picture
 constexpr int k_least_shadow_samples = 8;      // SHADOW_VIEW_CHUNK
+constexpr int k_most_imperfect_samples = 512;  // as in Ritschel et al. 2008; a tile's pixels ask 8 each
 constexpr int k_most_shadow_samples = 256;     // six layers each of the 2,048 that OpenGL 4.5 promises
 // Of the series of a convolution; its maps hold order + 1 or 2 layers of four floats a texel.
 constexpr int k_most_convolution_order = 16;

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/light_samples.h"
+#include "renderer/light_tints.h"
 #include "renderer/penumbra.h"
 
 namespace bounce {
@@ -69,25 +70,6 @@ Basis basis_towards(const glm::dvec3& direction) {
     const glm::dvec3 any = std::abs(out.z.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     out.x = glm::normalize(any - out.z * glm::dot(any, out.z));
     out.y = glm::cross(out.x, out.z);
-    return out;
-}
-
-// Places on the light relative to its middle, render space.
-std::vector<glm::dvec3> offsets(const LightSetup& setup, const scene::Light& light, int samples) {
-    if (samples == 1) {
-        return {glm::dvec3(0.0)};
-    }
-    const bool area = light.type == scene::LightType::area;
-    const bool round = setup.gpu.map.w > 0.5F;
-    const SampleShape shape = !area ? SampleShape::ball : round ? SampleShape::disk : SampleShape::square;
-    std::vector<glm::dvec3> out = light_samples(shape, samples);
-    const Basis basis = light_basis(setup);
-    const double radius = std::sqrt(static_cast<double>(setup.gpu.intensity.w));
-    for (glm::dvec3& p : out) {
-        p = area ? basis.x * (p.x * static_cast<double>(setup.gpu.area.x)) +
-                       basis.y * (p.y * static_cast<double>(setup.gpu.area.y))
-                 : p * radius;
-    }
     return out;
 }
 
@@ -275,6 +257,32 @@ bool sees(const glm::mat4& clip_from_render, const std::vector<Region>& receiver
 
 }  // namespace
 
+std::vector<glm::dvec3> place_offsets(const LightSetup& setup, const scene::Light& light, int samples) {
+    if (samples == 1) {
+        return {glm::dvec3(0.0)};
+    }
+    const bool area = light.type == scene::LightType::area;
+    const bool round = setup.gpu.map.w > 0.5F;
+    const SampleShape shape = !area ? SampleShape::ball : round ? SampleShape::disk : SampleShape::square;
+    std::vector<glm::dvec3> out = light_samples(shape, samples);
+    const Basis basis = light_basis(setup);
+    const double radius = std::sqrt(static_cast<double>(setup.gpu.intensity.w));
+    for (glm::dvec3& p : out) {
+        p = area ? basis.x * (p.x * static_cast<double>(setup.gpu.area.x)) +
+                       basis.y * (p.y * static_cast<double>(setup.gpu.area.y))
+                 : p * radius;
+    }
+    return out;
+}
+
+std::vector<glm::vec3> place_tints(const LightSetup& setup, const scene::Light& light, int samples) {
+    const bool round = setup.gpu.map.w > 0.5F;
+    const std::vector<glm::dvec3> samples_of =
+        light_samples(round ? SampleShape::disk : SampleShape::square, samples);
+    const std::vector<glm::dvec2> places(samples_of.begin(), samples_of.end());
+    return light_tints(light.pattern, places, round);
+}
+
 SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
                              const std::vector<Region>& receivers, const gpu::DrawBox& all, int samples,
                              int size) {
@@ -289,7 +297,7 @@ SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
     } else if (fits_picture(setup, light, receivers, basis, widest)) {
         out.map_kind = MAP_PERSPECTIVE;
         const std::vector<Region> lit = before(basis, middle, receivers);
-        for (const glm::dvec3& offset : offsets(setup, light, samples)) {
+        for (const glm::dvec3& offset : place_offsets(setup, light, samples)) {
             const glm::dvec3 origin = middle + offset;
             Window window = seen_from(basis, origin, lit, std::min(widest, 2.0 * k_widest_tangent));
             if (samples == 1 && !window.empty()) {
@@ -303,7 +311,7 @@ SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
         // An area light has a back that is dark.
         const std::vector<Region> lit =
             light.type == scene::LightType::area ? before(light_basis(setup), middle, receivers) : receivers;
-        for (const glm::dvec3& offset : offsets(setup, light, samples)) {
+        for (const glm::dvec3& offset : place_offsets(setup, light, samples)) {
             gpu::GpuShadowView view{};
             view.origin = row(middle + offset, near);
             for (size_t i = 0; i < setup.faces.size(); ++i) {

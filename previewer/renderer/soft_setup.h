@@ -25,6 +25,14 @@ struct SoftSetup {
     std::vector<SoftFace> faces;            // those that receivers are seen in
 };
 
+// `samples` places on a light that is no sun, relative to its middle, render space; one is the middle itself.
+[[nodiscard]] std::vector<glm::dvec3> place_offsets(const LightSetup& setup, const scene::Light& light,
+                                                    int samples);
+
+// What of the light's image each of them sends (light_tints()); the light is an area light with one.
+[[nodiscard]] std::vector<glm::vec3> place_tints(const LightSetup& setup, const scene::Light& light,
+                                                 int samples);
+
 // Maps that hold what lies between the light and the receivers, fitted to them: `samples` of them, a power of
 // two and a multiple of SHADOW_VIEW_CHUNK, each `size` texels a side (a cube's faces have half of it). One
 // picture is enough where all receivers are seen within it; a light among them takes a cube. all: around the

@@ -155,6 +155,15 @@ enum class SpotProfile { cycles_3, cycles_4, khronos };
 // Radiometric, as Blender means it. A point or spot light of P watts has intensity P/(4 pi) W/sr on
 // axis (a spot's cone does not concentrate it); KHR_lights_punctual's candela and lux are divided by
 // 683 lm/W on load.
+// What an area light's surface sends over its mean, cell by cell of a grid over the rectangle around its
+// shape: rows from its -Y to +Y, in them from -X to +X. Not negative; the mean of each channel over the shape
+// is 1, or 0 where nothing is sent.
+struct LightPattern {
+    int width = 0;  // 0: even
+    int height = 0;
+    std::vector<glm::vec3> cells;
+};
+
 struct Light {
     std::string name;
     LightType type = LightType::point;
@@ -171,6 +180,7 @@ struct Light {
     float size_x_m = 0.0F;  // area, before the node's scale
     float size_y_m = 0.0F;
     float spread_rad = 3.14159265F;
+    LightPattern pattern;
     bool cast_shadow = true;
 };
 

@@ -100,16 +100,23 @@ void technique_section(ViewState& state, PanelResult& result) {
                            settings.emitter_vpls, "none");
     changed |= choose_size("emissive panels", std::array{0, 1, 2, 4, 8, 16}, settings.emitter_panels, "none");
     changed |= choose_size("shadow size", std::array{256, 512, 1024, 2048, 4096}, settings.shadow_size);
-    changed |= choose("shadows", std::array{"hard", "soft", "convolution"}, settings.direct_shadows);
+    if (choose("shadows", std::array{"hard", "soft", "convolution", "imperfect"}, settings.direct_shadows)) {
+        settings.shadow_samples = settings.soft_shadow_size = 0;  // their ranges are not the same
+        changed = true;
+    }
     if (settings.direct_shadows == DirectShadows::convolution) {
         changed |= ImGui::SliderInt("order", &settings.convolution_order, 1, k_most_convolution_order);
         changed |=
-            choose_size("soft map size", std::array{128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
+            choose_size("soft map size", std::array{0, 128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
     } else if (settings.direct_shadows == DirectShadows::vpl) {
         changed |=
-            choose_size("shadow samples", std::array{8, 16, 32, 64, 128, 256}, settings.shadow_samples);
+            choose_size("shadow samples", std::array{0, 8, 16, 32, 64, 128, 256}, settings.shadow_samples);
         changed |=
-            choose_size("soft map size", std::array{128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
+            choose_size("soft map size", std::array{0, 128, 256, 512, 1024, 2048}, settings.soft_shadow_size);
+    } else if (settings.direct_shadows == DirectShadows::ism) {
+        changed |=
+            choose_size("shadow samples", std::array{0, 16, 32, 64, 128, 256, 512}, settings.shadow_samples);
+        changed |= choose_size("soft map size", std::array{0, 32, 64, 128, 256}, settings.soft_shadow_size);
     }
     int scale = state.render_divisor == 1 ? 0 : state.render_divisor == 2 ? 1 : 2;
     if (choose("render scale", std::array{"1", "1/2", "1/4"}, scale)) {

@@ -3,7 +3,8 @@
 // Direct light from an area light without shadows. Where it sends the same radiance everywhere, irradiance is the
 // polygon's in closed form (Lambert 1760; Baum et al. 1989, "Improving Radiosity Solutions Through the Use of
 // Analytically Determined Form-Factors"), cut off at the horizon: exact however near the light is. A grid of points
-// tells how lobes and a spread differ from that. PROFILE is PROFILE_AREA.
+// tells how the diffuse lobe and a spread differ from that. A glossy lobe is lib/lobe.glsl's (LOBES); with a spread it is
+// that grid's. PROFILE is PROFILE_AREA.
 #ifndef LIB_AREA_LIGHT
 #define LIB_AREA_LIGHT
 
@@ -13,10 +14,6 @@
 // Points a side of the grid. A spread has an edge of its own, which needs more.
 const int AREA_GRID = 4;
 const int AREA_GRID_SPREAD = 8;
-
-// An ellipse is a polygon of the same area; its outline is off by 1.3 % of the radius at most, to both sides.
-const int ELLIPSE_CORNERS = 16;
-const float ELLIPSE_RADIUS = sqrt(2.0 * PI / (float(ELLIPSE_CORNERS) * sin(2.0 * PI / float(ELLIPSE_CORNERS))));
 
 // The part of the light that can reach a receiver: middle and half sides, as parts of the light's own half sides.
 struct AreaPart {
@@ -106,7 +103,9 @@ vec3 area_light(Surface s, vec3 v) {
         float n_dot_l = max(dot(s.normal, l), 0.0);
         lambert += n_dot_l * max(from_light.z, 0.0) / squared;
         diffuse += reflected_diffuse(s, l, v, 0.0) * profile;
+#ifndef LOBES
         glossy += reflected_glossy(s, l, v) * profile;
+#endif
     }
     float share = round_ ? 1.0 : part.half_size.x * part.half_size.y;
     float weight = share / float(side * side);
@@ -117,7 +116,16 @@ vec3 area_light(Surface s, vec3 v) {
         float area = (round_ ? PI : 4.0) * light.area.x * light.area.y;
         diffuse *= polygon_irradiance(s.position, s.normal, part) / (area * weight * lambert);
     }
+#ifdef LOBES
+    vec3 half_x = light.tangent.xyz * light.area.x;
+    vec3 half_y = light.bitangent.xyz * light.area.y;
+    float whole = max((round_ ? PI : 4.0) * light.area.x * light.area.y, 1e-30);
+    bool seen = dot(middle, light.axis.xyz) < 0.0;
+    glossy = seen ? reflected_flat_light(s, v, FlatLight(middle, half_x, half_y, round_)).radiance / whole : vec3(0.0);
+    return light.intensity.rgb * (diffuse * weight + glossy);
+#else
     return light.intensity.rgb * (diffuse + glossy) * weight;
+#endif
 }
 
 #endif

@@ -76,25 +76,32 @@ float fresnel_rise(float cos_i, float eta) {
     return clamp((dielectric_fresnel(cos_i, eta) - f0) / (1.0 - f0), 0.0, 1.0);
 }
 
-// GGX reflection times the cosine at the receiver: BRDF * n.l. F0 and its rise to 1 follow the Principled BSDF:
-// 0.08 * specular for dielectrics, the base colour for metals, scaled by the exact Fresnel curve.
-vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
+// GGX reflection times the cosine at the receiver for a reflectance of 1; l and v unit.
+float ggx_times_cosine(Surface s, vec3 l, vec3 v) {
     float n_dot_l = dot(s.normal, l);
     float n_dot_v = max(dot(s.normal, v), 1e-4);
     if (n_dot_l <= 0.0) {
-        return vec3(0.0);
+        return 0.0;
     }
     // Below this a highlight is narrower than float resolves; Cycles treats such surfaces as mirrors, which
     // lights without size do not show in.
     float alpha = max(s.roughness * s.roughness, 1e-3);
     vec3 h = safe_normalize(l + v, s.normal);
     float n_dot_h = clamp(dot(s.normal, h), 0.0, 1.0);
-    float h_dot_v = clamp(dot(h, v), 0.0, 1.0);
-    float lobe = ggx_distribution_visibility(n_dot_l, n_dot_v, n_dot_h, cross(s.normal, h), alpha);
-    vec3 f0 = specular_f0(s);
-    float rise = fresnel_rise(h_dot_v, dielectric_eta(0.08 * s.specular));
-    vec3 fresnel = s.specular > 0.0 || s.metallic > 0.0 ? mix(f0, vec3(1.0), rise) : vec3(0.0);
-    return fresnel * (lobe * n_dot_l);
+    return ggx_distribution_visibility(n_dot_l, n_dot_v, n_dot_h, cross(s.normal, h), alpha) * n_dot_l;
+}
+
+// Reflectance of the microfacets that mirror l to v. F0 and its rise to 1 follow the Principled BSDF: 0.08 * specular
+// for dielectrics, the base colour for metals, scaled by the exact Fresnel curve.
+vec3 specular_fresnel(Surface s, vec3 l, vec3 v) {
+    vec3 h = safe_normalize(l + v, s.normal);
+    float rise = fresnel_rise(clamp(dot(h, v), 0.0, 1.0), dielectric_eta(0.08 * s.specular));
+    return s.specular > 0.0 || s.metallic > 0.0 ? mix(specular_f0(s), vec3(1.0), rise) : vec3(0.0);
+}
+
+// BRDF * n.l.
+vec3 specular_times_cosine(Surface s, vec3 l, vec3 v) {
+    return specular_fresnel(s, l, v) * ggx_times_cosine(s, l, v);
 }
 
 #endif

@@ -2,7 +2,7 @@
 //
 // Glossy reflection of the world's image by the split sum (Karis 2013, "Real Shading in Unreal Engine 4"): the image
 // averaged by the lobe (passes/environment_prefilter.comp) times what the lobe reflects of an even world
-// (renderer/environment_brdf.h). What hides the world comes from its lights' shadow maps.
+// (gpu/environment_brdf.h). What hides the world comes from its lights' shadow maps.
 #ifndef LIB_ENVIRONMENT_GLOSSY
 #define LIB_ENVIRONMENT_GLOSSY
 
@@ -10,8 +10,9 @@
 #include "lib/environment.glsl"
 
 layout(binding = TEX_ENVIRONMENT_GLOSSY) uniform sampler2D environment_glossy_texture;
-// What a lobe reflects, x: of reflectance at normal incidence, y: of its rise to grazing. Columns: cosine to the viewer,
-// rows: roughness; both from 0 to 1 at the middles of the first and last texel.
+// What a lobe reflects, x: of reflectance at normal incidence, y: of its rise to grazing; z, w: the lobe's first moment, as
+// gpu/environment_brdf.h has it. Columns: cosine to the viewer, rows: roughness; both from 0 to 1 at the middles of the
+// first and last texel.
 layout(binding = TEX_ENVIRONMENT_BRDF) uniform sampler2D environment_brdf_texture;
 
 // Radians over which a smooth lobe averages the image, over alpha: where a reflected ray has half of the middle's
@@ -45,11 +46,15 @@ vec3 environment_glossy(Surface s, vec3 v, float footprint) {
     float n_dot_v = clamp(dot(s.normal, v), 0.0, 1.0);
     vec2 size = vec2(textureSize(environment_brdf_texture, 0));
     vec2 place = (vec2(n_dot_v, s.roughness) * (size - 1.0) + 0.5) / size;
-    vec2 part = textureLod(environment_brdf_texture, place, 0.0).rg;
+    vec4 part = textureLod(environment_brdf_texture, place, 0.0);
     vec3 f0 = specular_f0(s);
     float f90 = s.specular > 0.0 || s.metallic > 0.0 ? 1.0 : 0.0;
+    // A rough lobe seen from aside leans to the normal and is cut off at the horizon: the lobe seen head on that has the same
+    // first moment stands for it.
     vec3 mirrored = reflect(-v, s.normal);
-    return environment_glossy_radiance(mirrored, s.roughness, footprint) * (f0 * part.x + vec3(f90) * part.y);
+    vec3 lean = s.normal - n_dot_v * mirrored;
+    vec3 middle = cos(part.z) * mirrored + sin(part.z) / max(length(lean), 1e-4) * lean;
+    return environment_glossy_radiance(normalize(middle), part.w, footprint) * (f0 * part.x + vec3(f90) * part.y);
 }
 
 #endif

@@ -89,6 +89,16 @@ ivec2 ism_origin(int map) {
     return ivec2(map % ism.atlas.y, map / ism.atlas.y) * ism.atlas.x;
 }
 
+// The part of the parabolic disk that a light's map shows: its middle, and half of its side. WINDOW: maps of places on a light
+// that shines itself show no more than what lies between it and what the camera sees (renderer/imperfect_setup.h).
+vec3 map_window(GpuVpl vpl) {
+#ifdef WINDOW
+    return vpl.incident.xyz;
+#else
+    return vec3(0.0, 0.0, 1.0);
+#endif
+}
+
 // Coordinates in the frame of a light's map: along its s and t axes and its normal.
 vec3 vpl_from_render(GpuVpl vpl, vec3 offset) {
     return vec3(dot(offset, vpl.tangent.xyz), dot(offset, vpl.bitangent.xyz), dot(offset, vpl.normal.xyz));

@@ -4,6 +4,10 @@
 
 const float PI = 3.14159265358979;
 
+// An ellipse is a polygon of the same area; its outline is off by 1.3 % of the radius at most, to both sides.
+const int ELLIPSE_CORNERS = 16;
+const float ELLIPSE_RADIUS = sqrt(2.0 * PI / (float(ELLIPSE_CORNERS) * sin(2.0 * PI / float(ELLIPSE_CORNERS))));
+
 // Octahedral map of unit vectors to [-1, 1]^2 (Cigolle et al. 2014, "A Survey of Efficient
 // Representations for Independent Unit Vectors").
 vec2 octahedral_encode(vec3 n) {

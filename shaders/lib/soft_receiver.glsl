@@ -6,7 +6,12 @@
 
 #include "lib/gbuffer.glsl"
 #include "lib/receiver_plane.glsl"
+#include "lib/shadow.glsl"
+#ifdef IMPERFECT
+#include "lib/imperfect_shadow.glsl"
+#else
 #include "lib/soft_shadow.glsl"
+#endif
 
 // Returns the depth, 0 where the pixel shows no surface; r is then of no use, but finite.
 float soft_receiver(ivec2 pixel, out SoftReceiver r) {

@@ -5,19 +5,11 @@
 #ifndef LIB_SOFT_SHADOW
 #define LIB_SOFT_SHADOW
 
+#include "lib/light_place.glsl"
 #include "lib/shadow.glsl"
 
 layout(std140, binding = UBO_SHADOW_VIEWS) uniform ShadowViewBlock {
     ShadowViews shadow_views;
-};
-
-struct SoftReceiver {
-    vec3 position;
-    vec3 normal;       // for shading
-    vec3 plane;        // the triangle's own
-    vec3 right;        // steps on its plane from a pixel to the next
-    vec3 up;
-    float slack;       // what the offset of one pixel may stand out of the plane
 };
 
 // As plane_lit(), over the four texels around the place, weighed by how near they are: a map's own outline has no steps.
@@ -40,23 +32,13 @@ float plane_lit_smooth(MapPlane plane, vec2 at, float slack, float size) {
 vec2 view_share(GpuShadowView view, int index, SoftReceiver r) {
 #if SOFT_KIND == MAP_ORTHOGRAPHIC
     vec3 to_light = -normalize(view.forward.xyz);
+    const float squared = 1.0;
 #else
     vec3 to_light = view.origin.xyz - r.position;
     float squared = max(dot(to_light, to_light), 1e-30);
     to_light *= inversesqrt(squared);
 #endif
-    float weight = max(dot(r.normal, to_light), 0.0);
-#if PROFILE != PROFILE_UNIFORM
-    vec3 from_light = -light_vector_from_render(to_light);
-    float profile = light_profile(from_light);
-#if PROFILE == PROFILE_AREA
-    // A narrow spread may miss every place; then the one that looks nearest to its direction tells.
-    float out_ = light.area.z * length(from_light.xy) / max(from_light.z, 1e-3);
-    profile += light.area.z > 0.0 && from_light.z > 0.0 ? 1e-5 / (1.0 + out_ * out_ * out_ * out_) : 0.0;
-    weight /= squared;
-#endif
-    weight *= profile;
-#endif
+    float weight = place_weight(r.normal, to_light, squared);
     vec2 pixel = vec2(view.to_s.w, view.to_t.w);
     vec3 p = r.position + r.right * pixel.x + r.up * pixel.y - view.origin.xyz;
     float size = view.forward.w;

@@ -15,6 +15,7 @@ struct Splat {
     vec2 place;     // in the map, in texels
     float reach;    // of the disk as seen face on, in texels
     float half_side;  // of a square of the disk's solid angle, in texels
+    vec3 window;      // map_window()
     bool flat_surface;
 };
 
@@ -27,6 +28,7 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     s.center = vpl_from_render(vpl, p.position - vpl.position.xyz);
     s.normal = vpl_from_render(vpl, p.normal);
     s.flat_surface = p.flat_surface;
+    s.window = map_window(vpl);
 #ifdef DISTANT
     // In units of the map's reach.
     float scale = 1.0 / distant_reach(vpl);
@@ -40,9 +42,9 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
 #else
     float distance2 = dot(s.center, s.center);
     s.distance = sqrt(distance2);
-    s.place = (paraboloid_project(s.center, s.distance) * 0.5 + 0.5) * map_size;
+    s.place = ((paraboloid_project(s.center, s.distance) - s.window.xy) / s.window.z * 0.5 + 0.5) * map_size;
     // Lengths on the unit sphere are 1 + z times those in the map.
-    s.reach = sqrt(s.radius2) / max(s.distance + s.center.z, 1e-20) * (0.5 * map_size);
+    s.reach = sqrt(s.radius2) / max(s.distance + s.center.z, 1e-20) * (0.5 * map_size) / s.window.z;
     float cosine = abs(dot(s.normal, s.center)) / max(s.distance, 1e-20);
     s.half_side = s.reach * sqrt(0.25 * PI * cosine);
 #ifdef REFLECTORS
@@ -51,7 +53,15 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
 #else
     bool apart = distance2 > s.radius2;
 #endif
+#ifdef WINDOW
+    apart = apart && all(greaterThan(s.place + s.reach, vec2(0.0))) && all(lessThan(s.place - s.reach, vec2(map_size)));
+#endif
+#ifdef BOTH_SIDES
+    // The other hemisphere has a map of its own; a disk across the border is in both.
+    return s.center.z > -min(sqrt(s.radius2), 0.5 * s.distance) && s.radius2 > 0.0 && apart;
+#else
     return s.center.z > 0.0 && s.radius2 > 0.0 && apart;
+#endif
 #endif
 }
 

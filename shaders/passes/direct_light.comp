@@ -4,6 +4,9 @@
 #define READ_GBUFFER
 #include "lib/gbuffer.glsl"
 #include "lib/light.glsl"
+#ifdef LOBES
+#include "lib/lobe.glsl"
+#endif
 #ifdef SHADOW
 #include "lib/receiver_plane.glsl"
 #include "lib/shadow.glsl"
@@ -18,13 +21,26 @@ layout(binding = IMG_OUT, rgba32f) uniform image2D direct_image;
 
 #ifdef SOFT_SHADOW
 // What passes/soft_probe.comp and soft_penumbra.comp, or convolution_shadow.comp, found out.
+#ifdef TINTED
+layout(binding = IMG_IN, rgba32f) readonly uniform image2D share_image;
+#else
 layout(binding = IMG_IN, rg32f) readonly uniform image2D share_image;
+#endif
 #ifdef SOFT_TILES
 layout(std430, binding = SSBO_TILE_FLAGS) readonly buffer FlagBlock {
     uint flags[];
 };
 #endif
 
+#ifdef TINTED
+// Every tile that sees some of the light has asked all its places.
+vec3 soft_visibility(ivec2 pixel) {
+    ivec2 tile = pixel / GROUP_2D;
+    uint seen = flags[tile.y * ((frame.size.x + GROUP_2D - 1) / GROUP_2D) + tile.x];
+    vec4 share = imageLoad(share_image, pixel);
+    return seen != 3u ? vec3(seen == 2u ? 0.0 : 1.0) : share.a > 0.0 ? share.rgb / share.a : vec3(1.0);
+}
+#else
 float soft_visibility(ivec2 pixel) {
 #ifndef SOFT_TILES
     return imageLoad(share_image, pixel).r;
@@ -35,6 +51,7 @@ float soft_visibility(ivec2 pixel) {
     return seen != 3u ? (seen == 2u ? 0.0 : 1.0) : share.y > 0.0 ? share.x / share.y : 1.0;
 #endif
 }
+#endif
 #endif
 
 // Mean cosine over a disk of directions around one with the cosine n_dot_l, where what is under the horizon counts
@@ -109,6 +126,43 @@ float facing_disk_profile(vec3 position, vec3 l) {
 }
 #endif
 
+#if defined(LOBES) && PROFILE != PROFILE_AREA
+// The disk of radius `tangent` at distance 1 that a light with a radius, or an angle, shows a receiver; l: towards it.
+Reflected reflected_disk(Surface s, vec3 l, vec3 v, float tangent) {
+    vec3 x, y;
+    orthonormal_basis(l, x, y);
+    return reflected_flat_light(s, v, FlatLight(l, x * tangent, y * tangent, true));
+}
+
+// Nothing is seen wider than this: the disk's edge is as good as at the horizon.
+const float WIDEST_TANGENT = 1e4;
+
+#if MAP_KIND == MAP_ORTHOGRAPHIC
+// A sun sends the same through equal parts of its disk, so its radiance grows towards the rim. A lobe that the disk fills
+// sees it as it is where it looks; one that is wider sees the mean.
+vec3 glossy_sun(Surface s, vec3 l, vec3 v) {
+    float tangent = min(light.cone.w, WIDEST_TANGENT);
+    Reflected reflected_ = reflected_disk(s, l, v, tangent);
+    float rim = sqrt(1.0 + tangent * tangent);
+    float squared = max(tangent * tangent, 1e-30);
+    float mean = rim * (rim + 1.0) / (2.0 * squared);
+    float cosine = max(dot(reflected_.toward, l), 1.0 / rim);
+    float there = 1.0 / (squared * cosine * cosine * cosine);
+    // The irradiance in the light block is the disk's mean cosine, 2 / (rim + 1), times what it sends.
+    return reflected_.radiance * (mix(mean, there, reflected_.share) * 0.5 * (rim + 1.0) / PI);
+}
+#else
+// Of intensity 1 on the axis. profile: the mean over the disk.
+vec3 glossy_disk(Surface s, vec3 l, vec3 v, float squared_distance, float profile) {
+    float squared = max(light.intensity.w, 1e-30);
+    Reflected reflected_ = reflected_disk(s, l, v, min(sqrt(squared / squared_distance), WIDEST_TANGENT));
+    vec3 place = sqrt(squared_distance) * (reflected_.toward / max(dot(reflected_.toward, l), 1e-4) - l);
+    float there = light_profile(normalize(light_from_render(s.position - place)));
+    return reflected_.radiance * (mix(profile, there, reflected_.share) / (PI * squared));
+}
+#endif
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, frame.size.xy))) {
@@ -124,7 +178,11 @@ void main() {
         vec3 v = direction_to_viewer(s.position);
 #if MAP_KIND == MAP_ORTHOGRAPHIC
         vec3 l = -light.axis.xyz;
+#ifdef LOBES
+        vec3 radiance = light.intensity.rgb * (reflected_diffuse(s, l, v, light.cone.w) + glossy_sun(s, l, v));
+#else
         vec3 radiance = light.intensity.rgb * reflected(s, l, v, light.cone.w);
+#endif
 #else
         vec3 d = light.position.xyz - s.position;
         float squared = max(dot(d, d), 1e-20);
@@ -135,8 +193,14 @@ void main() {
         float profile = facing_disk_profile(s.position, l);
         // A light with a radius is a disk that faces the point: on its axis that adds r^2 to d^2.
         float tangent = sqrt(light.intensity.w / squared);
+#ifdef LOBES
+        vec3 radiance =
+            light.intensity.rgb * (reflected_diffuse(s, l, v, tangent) * (profile / (squared + light.intensity.w)) +
+                                   glossy_disk(s, l, v, squared, profile));
+#else
         vec3 radiance =
             light.intensity.rgb * (profile / (squared + light.intensity.w)) * reflected(s, l, v, tangent);
+#endif
 #endif
 #endif
         if (any(notEqual(radiance, vec3(0.0)))) {

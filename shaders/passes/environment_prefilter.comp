@@ -36,7 +36,8 @@ void main() {
         float d = cos2 * (alpha2 - 1.0) + 1.0;
         float density = alpha2 / (PI * d * d * 4.0);
         float radians = sqrt(1.0 / (float(SAMPLES) * density));
-        float weight = max(n_dot_l, 0.0);
+        // What D leaves of the lobe seen head on: Smith's shadowing towards the light.
+        float weight = n_dot_l > 0.0 ? 2.0 * n_dot_l / (n_dot_l + sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2)) : 0.0;
         float level = clamp(log2(radians / world.detail.x), 0.0, world.detail.y);
         sum += weight * textureLod(environment_texture, environment_place(l), level).rgb;
         weights += weight;

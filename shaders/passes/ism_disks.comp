@@ -25,7 +25,7 @@ void draw_nearest(ivec2 origin, ivec2 texel, uint bits) {
 #endif
 }
 
-// What the disk's plane has at `at` (-1 to 1) of the map; false where the disk does not reach there.
+// What the disk's plane has at `at` of the map's disk (distant: -1 to 1 of the map); false where the disk does not reach there.
 bool disk_texel(Splat s, float plane, float set_back, vec2 at, out uint bits) {
 #ifdef DISTANT
     float steep = 1.0 / (abs(s.normal.z) > 1e-4 ? s.normal.z : 1e-4);
@@ -42,7 +42,8 @@ bool disk_texel(Splat s, float plane, float set_back, vec2 at, out uint bits) {
     vec3 off = ray * t - s.center;
     // Along the ray a step back behind the plane is longer the more it slants; but a disk seen from its edge says
     // little about where its surface is.
-    bits = pack_ism(t + set_back / max(abs(along), 0.1), plane_slope(s.normal, along, at, 2.0 / float(MAP_SIZE)));
+    bits = pack_ism(t + set_back / max(abs(along), 0.1),
+                    plane_slope(s.normal, along, at, 2.0 / float(MAP_SIZE) * s.window.z));
     return t > 0.0 && dot(off, off) <= s.radius2;
 #endif
 }
@@ -57,7 +58,7 @@ void draw_disk(Splat s, ivec2 origin) {
     int count = extent.x * extent.y;
     for (int i = 0; i < count; ++i) {
         ivec2 texel = low + ivec2(i % extent.x, i / extent.x);
-        vec2 at = (vec2(texel) + 0.5) * texel_size - 1.0;
+        vec2 at = ((vec2(texel) + 0.5) * texel_size - 1.0) * s.window.z + s.window.xy;
         uint bits;
         if (disk_texel(s, plane, set_back, at, bits)) {
             draw_nearest(origin, texel, bits);

@@ -100,7 +100,9 @@ void main() {
     barrier();
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     float texel_size = 2.0 / float(ism.atlas.x);
-    vec2 at = (vec2(texel) + 0.5) * texel_size - 1.0;
+    vec3 window = map_window(vpls[map]);
+    texel_size *= window.z;
+    vec2 at = (vec2(texel) + 0.5) * texel_size - window.z + window.xy;
 #ifdef DISTANT
     vec3 ray = vec3(at, 1.0);
 #else

@@ -67,7 +67,7 @@ def test_area_lights_are_not_punctual_and_portals_are_not_lights(scene):
 
 def test_shared_light_is_written_once(scene):
     assert light_of(scene, "Still") == light_of(scene, "Still again")
-    assert len(scene.gltf.bounce["lights"]) == 9
+    assert len(scene.gltf.bounce["lights"]) == 12
 
 
 def test_light_flags(scene):
@@ -138,9 +138,21 @@ def test_root(scene):
     assert root["version"] == 1
 
 
+@pytest.mark.parametrize("name", ["Pattern", "Round pattern"])
+def test_image_over_an_area_light(scene, name):
+    light = next(light for light in scene.gltf.bounce["lights"] if light["name"] == name)
+    # A disk in the middle of four even quarters has as much of each.
+    assert light["color"] == pytest.approx([0.75, 0.375, 0.75])
+    assert (light["pattern"]["width"], light["pattern"]["height"]) == (2, 2)
+    third = 4 / 3
+    assert light["pattern"]["rgb"] == pytest.approx(
+        [third, 0, 0, 0, third, 0, 0, 0, third, 2 * third, 2 * third, 2 * third], abs=1e-5)
+
+
 def test_unsupported(scene):
     assert scene.unsupported() == {
         ("Scene", "motion blur"),
         ("Main camera", "depth of field"),
         ("IES", "light 'IES': its node tree is not a plain Emission (Strength comes from IES Texture)"),
+        ("Lost pattern", "light 'Lost pattern': its node tree is not a plain Emission (Color comes from Image Texture)"),
     }

@@ -60,8 +60,9 @@ constexpr const char* k_scene = R"({
 TEST_F(InfoCommand, SaysWhatIsThere) {
     const ProcessResult result = info({write("scene.gltf", k_scene).string()});
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    for (const char* part : {"from Blender 3.4.1", "1 triangles", "1 x 1 x 0 m", "1 to 48 at 24", "Lamp",
-                             "40 W", "Eye", "active", "Fog: volumes", "KHR_materials_sheen"}) {
+    for (const char* part :
+         {"from Blender 3.4.1", "1 triangles", "1 x 1 x 0 m", "1 to 48 at 24", "Lamp",
+          "40 W, square of 1 x 1 m\n", "Eye", "active", "Fog: volumes", "KHR_materials_sheen"}) {
         EXPECT_THAT(result.output, HasSubstr(part));
     }
 }
@@ -74,6 +75,8 @@ TEST_F(InfoCommand, SaysItInJson) {
     EXPECT_EQ(json["counts"]["triangles"], 1);
     EXPECT_EQ(json["frames"]["end"], 48);
     EXPECT_EQ(json["lights"][0]["power_w"], 40.0);
+    EXPECT_EQ(json["lights"][0]["shape"], "square");
+    EXPECT_EQ(json["world"]["image"], nullptr);
     EXPECT_EQ(json["cameras"][0]["active"], true);
     EXPECT_EQ(json["unsupported"][0]["object"], "Fog");
     EXPECT_EQ(json["warnings"].size(), 1U);

@@ -67,6 +67,25 @@ AreaShape shape_of(const std::string& name, size_t index) {
     throw refusal("light {} of BOUNCE_scene has the unknown shape {}", index, name);
 }
 
+LightPattern read_pattern(const json& description, size_t index) {
+    LightPattern pattern;
+    pattern.width = description["width"].get<int>();
+    pattern.height = description["height"].get<int>();
+    const auto rgb = description["rgb"].get<std::vector<float>>();
+    const size_t cells = static_cast<size_t>(pattern.width) * static_cast<size_t>(pattern.height);
+    if (rgb.size() != 3 * cells) {
+        throw refusal("light {} of BOUNCE_scene has a pattern of {} x {} with {} numbers", index,
+                      pattern.width, pattern.height, rgb.size());
+    }
+    if (std::any_of(rgb.begin(), rgb.end(), [](float value) { return value < 0.0F; })) {
+        throw refusal("light {} of BOUNCE_scene has a pattern with values below 0", index);
+    }
+    for (size_t i = 0; i < cells; ++i) {
+        pattern.cells.emplace_back(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+    }
+    return pattern;
+}
+
 Light read_light(const json& description, size_t index, SpotProfile profile) {
     Light light;
     light.name = string_or(description, "name", "");
@@ -84,6 +103,9 @@ Light read_light(const json& description, size_t index, SpotProfile profile) {
     light.size_y_m = number_or(description, "size_y_m", light.size_x_m);
     light.spread_rad = number_or(description, "spread_rad", light.spread_rad);
     light.cast_shadow = description.value("cast_shadow", true);
+    if (const json* pattern = member(description, "pattern"); pattern && light.type == LightType::area) {
+        light.pattern = read_pattern(*pattern, index);
+    }
     return light;
 }
 

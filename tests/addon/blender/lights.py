@@ -53,6 +53,22 @@ def animate_lights():
     texture = ies.node_tree.nodes.new("ShaderNodeTexIES")
     ies.node_tree.links.new(texture.outputs[0], ies.node_tree.nodes["Emission"].inputs["Strength"])
     light("Dark", "POINT", energy=-5.0)
+    pattern("Pattern", "Parametric", "SQUARE")
+    pattern("Round pattern", "Parametric", "DISK")
+    pattern("Lost pattern", "Position", "SQUARE")
+
+
+def pattern(name, coordinate, shape):
+    """An area light with an image of 2 x 2 pixels: from the lower left red, green, blue and twice white."""
+    _, area = light(name, "AREA", shape=shape, size=1.0, energy=8.0, color=(1.0, 0.5, 1.0))
+    area.use_nodes = True
+    tree = area.node_tree
+    texture, geometry = (tree.nodes.new(kind) for kind in ("ShaderNodeTexImage", "ShaderNodeNewGeometry"))
+    texture.image = bpy.data.images.new(name, 2, 2, float_buffer=True)
+    texture.image.pixels = [1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 2, 2, 2, 1]
+    texture.image.pack()
+    tree.links.new(geometry.outputs[coordinate], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], tree.nodes["Emission"].inputs["Color"])
 
 
 def animate_cameras(scene):

@@ -61,6 +61,27 @@ TEST(OptionConflicts, AConvolutionHasAnOrderAndOneMap) {
     EXPECT_THAT(conflict(order, {}), AllOf(HasSubstr("--convolution-order"), HasSubstr("vpl")));
 }
 
+TEST(OptionConflicts, ImperfectShadowsAreSplattedInAnyTechnique) {
+    const auto places = [](RenderOptions& o) { o.shadow_samples = 512; };
+    const auto points = [](RenderOptions& o) { o.points = "4096"; };
+    const auto order = [](RenderOptions& o) { o.convolution_order = 8; };
+    const auto fill = [](RenderOptions& o) { o.pull_push = "fill"; };
+    const auto size = [](RenderOptions& o) { o.ism_size = 64; };
+    Settings s{.technique = Technique::direct};
+    EXPECT_THAT(conflict(points, s), HasSubstr("virtual point lights"));
+    s.direct_shadows = DirectShadows::ism;
+    EXPECT_EQ(conflict(points, s), "");
+    EXPECT_EQ(conflict(places, s), "");
+    EXPECT_THAT(conflict(order, s), AllOf(HasSubstr("--convolution-order"), HasSubstr("ism")));
+    EXPECT_THAT(conflict(size, s), HasSubstr("virtual point lights"))
+        << "--soft-shadow-size is that of a place's";
+    s.pull_push = PullPush::fill;
+    EXPECT_THAT(conflict(fill, s), HasSubstr("needs --splat compute or points"));
+    s = {.visibility = Visibility::none, .direct_shadows = DirectShadows::ism};
+    EXPECT_EQ(conflict(points, s), "");
+    EXPECT_THAT(conflict(size, s), HasSubstr("--visibility none"));
+}
+
 TEST(OptionConflicts, PresetAndTechniqueBothChooseTheTechnique) {
     const auto both = [](RenderOptions& o) {
         o.preset = "ism2008";

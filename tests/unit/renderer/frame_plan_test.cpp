@@ -569,6 +569,20 @@ TEST_F(FramePlanTest, AConvolvedShadowIsNamedAndHardLightsHaveNone) {
     EXPECT_THAT(plan().approximations, Contains(HasSubstr("light Key: its soft shadow is convolved")));
 }
 
+TEST_F(FramePlanTest, AnImperfectShadowIsNamedAndHardLightsHaveNone) {
+    settings_.direct_shadows = DirectShadows::ism;
+    EXPECT_TRUE(plan().approximations.empty()) << "a light without size";
+    EXPECT_FALSE(plan().imperfect_shadows);
+    EXPECT_THAT(reason(plan(), "soft shadow: Key"), HasSubstr("no size"));
+    scene_.lights[0].radius_m = 0.1F;
+    EXPECT_EQ(plan().soft, std::vector<bool>{true});
+    EXPECT_TRUE(plan().imperfect_shadows);
+    EXPECT_THAT(plan().approximations,
+                Contains(HasSubstr("light Key: its soft shadow is of imperfect maps")));
+    settings_.direct_shadows = DirectShadows::vpl;
+    EXPECT_FALSE(plan().imperfect_shadows);
+}
+
 TEST_F(FramePlanTest, ALightBelowZeroTakesDirectLightAlone) {
     scene_.lights[0].power_w = -5.0F;
     const FramePlan p = plan();

@@ -102,6 +102,18 @@ TEST(SettingsRefusal, NamesTheSettingAndItsRange) {
     expect_range("--transparent-layers", 0, 16, [](Settings& s, int v) { s.transparent_layers = v; });
     expect_range("--shadow-samples", 8, 256, [](Settings& s, int v) { s.shadow_samples = v; });
     EXPECT_THAT(refusal([](Settings& s) { s.shadow_samples = 48; }), HasSubstr("power of two"));
+    EXPECT_THAT(refusal([](Settings& s) { s.shadow_samples = 512; }), HasSubstr("or --direct-shadows ism"));
+    const auto imperfect = [](Settings& s, int samples, int size) {
+        s.direct_shadows = DirectShadows::ism;
+        s.shadow_samples = samples;
+        s.soft_shadow_size = size;
+    };
+    expect_range("--shadow-samples", 8, 512, [&](Settings& s, int v) { imperfect(s, v, 64); });
+    for (const int wrong : {16, 96, 512}) {
+        EXPECT_THAT(refusal([&](Settings& s) { imperfect(s, 64, wrong); }),
+                    AllOf(HasSubstr("--soft-shadow-size"), HasSubstr("power of two from 32 to 256")));
+    }
+    EXPECT_EQ(refusal([&](Settings& s) { imperfect(s, 0, 0); }), "") << "automatic";
     expect_range("--convolution-order", 1, 16, [](Settings& s, int v) { s.convolution_order = v; });
     const auto convolved = [](Settings& s) {
         s.direct_shadows = DirectShadows::convolution;
@@ -184,6 +196,18 @@ TEST(LimitsRefusal, MapsOfLights) {
     EXPECT_THAT(limits_refusal({.rsm_size = 16384}, {.texture_size = 8192}), HasSubstr("--rsm-size"));
     EXPECT_EQ(limits_refusal({.technique = Technique::direct, .rsm_size = 16384}, {.texture_size = 8192}),
               "");
+}
+
+TEST(LimitsRefusal, ImperfectMapsOfPlacesMustFitWithTwoAPlace) {
+    Settings s{.technique = Technique::direct, .world_vpls = 0, .emitter_vpls = 0};
+    s.direct_shadows = DirectShadows::ism;
+    s.shadow_samples = 512;
+    s.soft_shadow_size = 256;
+    EXPECT_EQ(limits_refusal(s, {.texture_size = 8192}), "");
+    EXPECT_THAT(limits_refusal(s, {.texture_size = 4096}),
+                AllOf(HasSubstr("--shadow-samples 512"), HasSubstr("8192 texels wide")));
+    s.direct_shadows = DirectShadows::vpl;
+    EXPECT_EQ(limits_refusal(s, {.texture_size = 4096}), "");
 }
 
 TEST(LayerRefusal, SaysWhyALayerIsNotThere) {

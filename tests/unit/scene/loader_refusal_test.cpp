@@ -363,6 +363,22 @@ INSTANTIATE_TEST_SUITE_P(
                                                           {"lights", json::array({json{{"type", "laser"}}})}};
               },
               "laser"},
+        Fault{"PatternOfOtherSize",
+              [](GltfBuilder& b) {
+                  const json pattern{{"width", 2}, {"height", 2}, {"rgb", {1, 1, 1}}};
+                  b.root["extensions"]["BOUNCE_scene"] = {
+                      {"version", 1},
+                      {"lights", json::array({json{{"type", "area"}, {"pattern", pattern}}})}};
+              },
+              "pattern of 2 x 2 with 3 numbers"},
+        Fault{"PatternBelowZero",
+              [](GltfBuilder& b) {
+                  const json pattern{{"width", 1}, {"height", 1}, {"rgb", {1, -1, 1}}};
+                  b.root["extensions"]["BOUNCE_scene"] = {
+                      {"version", 1},
+                      {"lights", json::array({json{{"type", "area"}, {"pattern", pattern}}})}};
+              },
+              "values below 0"},
         Fault{"FramesBackwards",
               [](GltfBuilder& b) {
                   b.root["extensions"]["BOUNCE_scene"] = {

@@ -129,6 +129,20 @@ TEST(LoaderScene, BlenderLightsWinOverPunctualOnes) {
     EXPECT_EQ(punctual.profile, SpotProfile::khronos);
 }
 
+TEST(LoaderScene, AreaLightsMayHaveAPattern) {
+    GltfBuilder builder = blender_file();
+    const nlohmann::json pattern{{"width", 2}, {"height", 1}, {"rgb", {0.5, 1, 2, 1.5, 1, 0}}};
+    builder.root["extensions"]["BOUNCE_scene"]["lights"] = {
+        {{"type", "area"}, {"power_w", 1}, {"size_x_m", 1}, {"pattern", pattern}},
+        {{"type", "area"}, {"power_w", 1}, {"size_x_m", 1}}};
+    const Scene scene = builder.load().scene;
+    const LightPattern& found = scene.lights.at(0).pattern;
+    EXPECT_EQ(found.width, 2);
+    EXPECT_EQ(found.height, 1);
+    EXPECT_EQ(found.cells, (std::vector<glm::vec3>{{0.5F, 1.0F, 2.0F}, {1.5F, 1.0F, 0.0F}}));
+    EXPECT_EQ(scene.lights.at(1).pattern.width, 0);
+}
+
 TEST(LoaderScene, SpotProfileFollowsTheBlenderVersion) {
     GltfBuilder builder = blender_file();
     builder.root["extensions"]["BOUNCE_scene"]["generator"]["blender"] = {4, 1, 0};
