@@ -8,6 +8,8 @@ _UNSUPPORTED_TYPES = {"CURVES": "hair curves", "POINTCLOUD": "point cloud", "VOL
                       "LIGHT_PROBE": None}
 _RAY_FLAGS = {"visible_camera": "camera", "visible_diffuse": "diffuse", "visible_glossy": "glossy",
               "visible_shadow": "shadow"}
+# Cosine between the axes of an area light from which a shear shows.
+_LEAST_SHEAR = 1e-3
 _SIMULATIONS = {"CLOTH": "cloth", "SOFT_BODY": "soft body", "FLUID": "fluid", "EXPLODE": "explode"}
 
 
@@ -81,6 +83,9 @@ def object_issues(obj):
         if read_lights.is_portal(obj.data):
             return
         yield from read_lights.issues(obj.data)
+        axes = [obj.matrix_world.col[axis].xyz.normalized() for axis in (0, 1)]
+        if obj.data.type == "AREA" and abs(axes[0].dot(axes[1])) > _LEAST_SHEAR:
+            yield f"light '{obj.data.name}': sheared by its parent, and then elsewhere for each receiver in Cycles"
         if obj.data.use_nodes and obj.data.node_tree is not None:
             for path in sorted(animated_paths(obj.data.node_tree)):
                 if "Emission" not in path and "inputs" not in path:

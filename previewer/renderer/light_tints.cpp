@@ -14,20 +14,22 @@ const glm::vec3& cell(const scene::LightPattern& pattern, const glm::dvec2& p) {
     const auto along = [](double x, int cells) {
         return std::clamp(static_cast<int>(std::floor((0.5 * x + 0.5) * cells)), 0, cells - 1);
     };
-    return pattern.cells[static_cast<size_t>(along(p.y, pattern.height) * pattern.width + along(p.x, pattern.width))];
+    return pattern
+        .cells[static_cast<size_t>(along(p.y, pattern.height) * pattern.width + along(p.x, pattern.width))];
 }
 
 size_t nearest(std::span<const glm::dvec2> places, const glm::dvec2& p) {
     const auto distance = [&](const glm::dvec2& place) { return glm::dot(place - p, place - p); };
-    const auto found = std::min_element(places.begin(), places.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
-        return distance(a) < distance(b);
-    });
+    const auto found =
+        std::min_element(places.begin(), places.end(),
+                         [&](const glm::dvec2& a, const glm::dvec2& b) { return distance(a) < distance(b); });
     return static_cast<size_t>(found - places.begin());
 }
 
 }  // namespace
 
-std::vector<glm::vec3> light_tints(const scene::LightPattern& pattern, std::span<const glm::dvec2> places, bool round) {
+std::vector<glm::vec3> light_tints(const scene::LightPattern& pattern, std::span<const glm::dvec2> places,
+                                   bool round) {
     std::vector<glm::dvec3> sums(places.size(), glm::dvec3(0.0));
     std::vector<int> counts(places.size(), 0);
     for (int y = 0; y < k_steps; ++y) {
@@ -44,7 +46,8 @@ std::vector<glm::vec3> light_tints(const scene::LightPattern& pattern, std::span
     glm::dvec3 mean(0.0);
     for (size_t i = 0; i < places.size(); ++i) {
         // Between the steps there may be a place without one.
-        sums[i] = counts[i] > 0 ? sums[i] / static_cast<double>(counts[i]) : glm::dvec3(cell(pattern, places[i]));
+        sums[i] =
+            counts[i] > 0 ? sums[i] / static_cast<double>(counts[i]) : glm::dvec3(cell(pattern, places[i]));
         mean += sums[i] / static_cast<double>(places.size());
     }
     std::vector<glm::vec3> tints;

@@ -30,6 +30,8 @@ constexpr double k_most_reach = 0.25;
 // Nearer to the light's plane than this, render units, a receiver is beside the light.
 constexpr double k_least_depth = 1e-7;
 
+constexpr double k_endless = std::numeric_limits<double>::max();
+
 struct Basis {
     glm::dvec3 x;
     glm::dvec3 y;
@@ -141,9 +143,11 @@ gpu::GpuShadowView perspective_view(const Basis& basis, const glm::dvec3& origin
     return view;
 }
 
-// Along basis.z + slant.x basis.x + slant.y basis.y; near: the least depth of all the scene.
+// Along basis.z + slant.x basis.x + slant.y basis.y; near: the depth at which the map begins, of all the
+// scene the least; most: what of that plane it may show, along the basis.
 gpu::GpuShadowView slanted_view(const Basis& basis, const glm::dvec2& slant, double near, double range,
-                                const std::vector<Region>& receivers, int size, double reach) {
+                                const std::vector<Region>& receivers, int size, double reach,
+                                const Window& most = {glm::dvec2(-k_endless), glm::dvec2(k_endless)}) {
     const glm::dvec3 across_x = basis.x - slant.x * basis.z;
     const glm::dvec3 across_y = basis.y - slant.y * basis.z;
     const glm::dvec3 begin = near * basis.z;
@@ -155,6 +159,8 @@ gpu::GpuShadowView slanted_view(const Basis& basis, const glm::dvec2& slant, dou
     }
     if (!window.empty()) {
         window.widen(glm::dvec2(reach));
+        window.low = glm::clamp(window.low, most.low, most.high);
+        window.high = glm::clamp(window.high, most.low, most.high);
     }
     window = window.with_room(size, 1e-5);
     const glm::dvec2 half = 0.5 * (window.high - window.low);
@@ -194,6 +200,51 @@ void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Regio
     for (const glm::dvec3& p : light_samples(SampleShape::disk, samples)) {
         out.views.push_back(
             slanted_view(basis, tangent * glm::dvec2(p), near - room, range, receivers, out.size, 0.0));
+    }
+}
+
+// How far before the light's plane anything of the scene lies.
+double reach_of(const LightSetup& setup, const gpu::DrawBox& all) {
+    const Basis basis = light_basis(setup);
+    const glm::dvec3 middle(glm::vec3(setup.gpu.position));
+    double reach = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? all.high.x : all.low.x,
+                           (corner & 2) != 0 ? all.high.y : all.low.y,
+                           (corner & 4) != 0 ? all.high.z : all.low.z);
+        reach = std::max(reach, glm::dot(p - middle, basis.z));
+    }
+    return reach;
+}
+
+// Whether an area light's spread is so narrow that a receiver sees but a small part of the light anywhere: of
+// the places on it next to none. An image over the light is told by places, not by directions.
+bool is_beam(const LightSetup& setup, const scene::Light& light, const gpu::DrawBox& all, int samples) {
+    const auto spread = static_cast<double>(light.spread_rad);
+    return light.type == scene::LightType::area && samples > 1 && spread < 0.5 * pi &&
+           light.pattern.width == 0 &&
+           std::tan(0.5 * spread) * reach_of(setup, all) <=
+               static_cast<double>(std::min(setup.gpu.area.x, setup.gpu.area.y));
+}
+
+// The directions of the spread, each with an orthographic map of what lies before the light's plane. They are
+// exact at every receiver but for the light's own edge, beyond which some begin.
+void set_up_beam(const LightSetup& setup, const scene::Light& light, const std::vector<Region>& receivers,
+                 const gpu::DrawBox& all, int samples, SoftSetup& out) {
+    out.map_kind = MAP_ORTHOGRAPHIC;
+    const Basis basis = light_basis(setup);
+    const glm::dvec3 middle(glm::vec3(setup.gpu.position));
+    const double range = 1.01 * reach_of(setup, all) + k_least_depth;
+    // Cycles' least spread is a degree.
+    const double tangent = std::tan(0.5 * std::max(static_cast<double>(light.spread_rad), pi / 180.0));
+    // Rays begin on the light: no map need show more of its plane.
+    const glm::dvec2 here(glm::dot(basis.x, middle), glm::dot(basis.y, middle));
+    const glm::dvec2 half(setup.gpu.area.x, setup.gpu.area.y);
+    const Window whole{here - half, here + half};
+    const std::vector<Region> lit = before(basis, middle, receivers);
+    for (const glm::dvec3& p : light_samples(SampleShape::disk, samples)) {
+        out.views.push_back(slanted_view(basis, tangent * glm::dvec2(p), glm::dot(middle, basis.z), range,
+                                         lit, out.size, 0.0, whole));
     }
 }
 
@@ -294,6 +345,8 @@ SoftSetup set_up_soft_shadow(const LightSetup& setup, const scene::Light& light,
     const double near = static_cast<double>(setup.gpu.map.z);
     if (light.type == scene::LightType::sun) {
         set_up_sun(setup, light_extent({}, light), receivers, all, samples, out);
+    } else if (is_beam(setup, light, all, samples)) {
+        set_up_beam(setup, light, receivers, all, samples, out);
     } else if (fits_picture(setup, light, receivers, basis, widest)) {
         out.map_kind = MAP_PERSPECTIVE;
         const std::vector<Region> lit = before(basis, middle, receivers);

@@ -67,7 +67,7 @@ def test_area_lights_are_not_punctual_and_portals_are_not_lights(scene):
 
 def test_shared_light_is_written_once(scene):
     assert light_of(scene, "Still") == light_of(scene, "Still again")
-    assert len(scene.gltf.bounce["lights"]) == 12
+    assert len(scene.gltf.bounce["lights"]) == 13
 
 
 def test_light_flags(scene):
@@ -154,5 +154,6 @@ def test_unsupported(scene):
         ("Scene", "motion blur"),
         ("Main camera", "depth of field"),
         ("IES", "light 'IES': its node tree is not a plain Emission (Strength comes from IES Texture)"),
+        ("Sheared", "light 'Sheared': sheared by its parent, and then elsewhere for each receiver in Cycles"),
         ("Lost pattern", "light 'Lost pattern': its node tree is not a plain Emission (Color comes from Image Texture)"),
     }

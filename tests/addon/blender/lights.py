@@ -53,6 +53,8 @@ def animate_lights():
     texture = ies.node_tree.nodes.new("ShaderNodeTexIES")
     ies.node_tree.links.new(texture.outputs[0], ies.node_tree.nodes["Emission"].inputs["Strength"])
     light("Dark", "POINT", energy=-5.0)
+    sheared, _ = light("Sheared", "AREA", shape="SQUARE", size=1.0, energy=8.0)
+    sheared.parent = truth.link("Stretched", None, scale=(3, 1, 1))
     pattern("Pattern", "Parametric", "SQUARE")
     pattern("Round pattern", "Parametric", "DISK")
     pattern("Lost pattern", "Position", "SQUARE")

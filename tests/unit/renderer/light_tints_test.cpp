@@ -28,7 +28,8 @@ TEST(LightTints, TogetherSendWhatTheLightDoes) {
     for (const SampleShape shape : {SampleShape::square, SampleShape::disk}) {
         for (const int count : {8, 64, 512}) {
             glm::dvec3 mean(0.0);
-            for (const glm::vec3& tint : light_tints(k_quarters, places(shape, count), shape == SampleShape::disk)) {
+            for (const glm::vec3& tint :
+                 light_tints(k_quarters, places(shape, count), shape == SampleShape::disk)) {
                 mean += glm::dvec3(tint) / static_cast<double>(count);
             }
             EXPECT_LT(glm::length(mean - glm::dvec3(1.0)), 1e-5) << count;

@@ -4,6 +4,8 @@
 #include "renderer/soft_setup.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -12,6 +14,8 @@
 
 namespace bounce {
 namespace {
+
+constexpr double pi = std::numbers::pi;
 
 const scene::Bounds k_bounds = [] {
     scene::Bounds bounds;
@@ -160,6 +164,33 @@ TEST(SoftSetup, PlacesSpanTheLight) {
         EXPECT_GT(reach, 0.2);
         EXPECT_LT(glm::length(mean), 0.06);
     }
+}
+
+TEST(SoftSetup, ANarrowSpreadLooksAlongItsDirectionsFromTheLightsPlane) {
+    // At 3 m two degrees of spread show 5 cm of a light of 60 cm, in which few of 16 places would lie.
+    const gpu::RenderSpace space = gpu::RenderSpace::around(k_bounds);
+    const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 3.0));
+    const double plane = space.point({0.0, 0.0, 3.0}).z;
+    scene::Light light = light_of(scene::LightType::area);
+    light.spread_rad = static_cast<float>(2.0 * pi / 180.0);
+    const SoftSetup setup = set_up({light, place}, floor_region());
+    ASSERT_EQ(setup.map_kind, MAP_ORTHOGRAPHIC);
+    ASSERT_EQ(setup.views.size(), 16U);
+    double widest = 0.0;
+    for (const gpu::GpuShadowView& view : setup.views) {
+        const glm::dvec3 forward(glm::vec3(view.forward));
+        const double slant = std::hypot(forward.x, forward.y) / -forward.z;
+        EXPECT_LE(slant, std::tan(pi / 180.0) * 1.0001);
+        widest = std::max(widest, slant);
+        EXPECT_NEAR(view.origin.z, plane, 1e-6) << "what is behind the light hides nothing";
+    }
+    EXPECT_GT(widest, 0.7 * std::tan(pi / 180.0));
+    // A wide one, or an image over the light, is told by places on it.
+    light.spread_rad = static_cast<float>(0.4 * pi);
+    EXPECT_EQ(set_up({light, place}, floor_region()).map_kind, MAP_PERSPECTIVE);
+    light.spread_rad = static_cast<float>(2.0 * pi / 180.0);
+    light.pattern = {1, 1, {glm::vec3(1.0F)}};
+    EXPECT_EQ(set_up({light, place}, floor_region()).map_kind, MAP_PERSPECTIVE);
 }
 
 TEST(SoftSetup, ALightAmongItsReceiversTakesTheFacesThatSeeThem) {
