@@ -123,7 +123,7 @@ void draw_batches(const PassContext& context, const View* view, bool mirrored, D
     context.scene.bind();
     glEnable(GL_DEPTH_TEST);
     // A light inside its own near plane must not see through what stands there.
-    if (!seen_by_camera(kind)) {
+    if (!seen_by_camera(kind) && (view == nullptr || !view->begins_near)) {
         glEnable(GL_DEPTH_CLAMP);
     }
     for (const gpu::DrawBatch& batch : context.scene.batches()) {

@@ -18,6 +18,7 @@ struct View {
     gpu::UniformArena::Slot uniforms;  // ViewUniforms
     glm::mat4 clip_from_render{1.0F};  // as in these
     bool mirrored = false;             // the projection turns front faces into back faces
+    bool begins_near = false;  // what lies before the near plane is not drawn; else it is, upon that plane
 };
 
 // The maps of a light with a size, one from each of some places on it; none where there are no chunks.

@@ -149,7 +149,7 @@ passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) 
         out.faces.push_back(
             {face.layer,
              {uniforms.add(gpu::ViewUniforms{clip, glm::vec4(0.0F, 0.0F, 0.0F, static_cast<float>(numbers))}),
-              clip, face.view.mirrored}});
+              clip, face.view.mirrored, setup.begins_near}});
     }
     for (size_t first = 0; first < setup.views.size(); first += SHADOW_VIEW_CHUNK) {
         gpu::ShadowViews chunk{};

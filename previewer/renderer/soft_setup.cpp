@@ -232,6 +232,7 @@ bool is_beam(const LightSetup& setup, const scene::Light& light, const gpu::Draw
 void set_up_beam(const LightSetup& setup, const scene::Light& light, const std::vector<Region>& receivers,
                  const gpu::DrawBox& all, int samples, SoftSetup& out) {
     out.map_kind = MAP_ORTHOGRAPHIC;
+    out.begins_near = true;
     const Basis basis = light_basis(setup);
     const glm::dvec3 middle(glm::vec3(setup.gpu.position));
     const double range = 1.01 * reach_of(setup, all) + k_least_depth;

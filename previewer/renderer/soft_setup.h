@@ -23,6 +23,7 @@ struct SoftSetup {
     int layers = 0;                         // of all maps
     std::vector<gpu::GpuShadowView> views;  // one a sample, of equal weight
     std::vector<SoftFace> faces;            // those that receivers are seen in
+    bool begins_near = false;               // what lies before the near planes hides nothing
 };
 
 // `samples` places on a light that is no sun, relative to its middle, render space; one is the middle itself.

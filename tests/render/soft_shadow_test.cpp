@@ -233,6 +233,41 @@ TEST_F(SoftShadows, ALightAmongWhatItLightsTakesACubeWithTheSamePenumbra) {
     }
 }
 
+TEST_F(SoftShadows, ABeamHasASharpEdgeAndNothingBehindItHidesIt) {
+    // A spread of 2 degrees, tilted by 20: the half plane's shadow ends at k_edge_height tan 20 degrees,
+    // within a penumbra of a centimetre. Of 64 places on 0.9 x 0.9 m a receiver sees one or none. A ceiling
+    // hangs behind the light.
+    scene::Light light = light_of(scene::LightType::area);
+    light.size_x_m = light.size_y_m = 0.9F;
+    light.spread_rad = static_cast<float>(2.0 * pi / 180.0);
+    const double tilt = 20.0 * pi / 180.0;
+    const glm::dmat4 place =
+        glm::rotate(glm::translate(glm::dmat4(1.0),
+                                   glm::dvec3(0.15 - k_light_height * std::tan(tilt), 0.0, k_light_height)),
+                    -tilt, glm::dvec3(0.0, 1.0, 0.0));
+    const auto drawn = [&](bool occluder, bool shadow) {
+        light.cast_shadow = shadow;
+        scene::Scene scene = scene_with(light, place, occluder);
+        add_mesh_node(scene, add_square(scene, 6.0F, add_diffuse(scene)),
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, k_light_height + 0.6)));
+        return draw(scene, camera_from_above(k_width, 2.0), settings());
+    };
+    const Rendered lit = drawn(false, false);
+    const Rendered open = drawn(false, true);
+    const Rendered shaded = drawn(true, true);
+    const double edge = k_edge_height * std::tan(tilt);
+    for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+        const double at = ((x + 0.5) / k_pixels - 0.5) * k_width;
+        const double whole = lit.at(x, k_pixels / 2).x;
+        ASSERT_GT(whole, 0.0) << at;
+        EXPECT_EQ(open.at(x, k_pixels / 2).x, whole) << at;
+        if (std::abs(at - edge) > 0.012) {
+            // Pictures are of half floats.
+            EXPECT_NEAR(shaded.at(x, k_pixels / 2).x / whole, at < edge ? 0.0 : 1.0, 2e-3) << at;
+        }
+    }
+}
+
 TEST_F(SoftShadows, AHardLightIsDrawnAsWithoutThem) {
     for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
         const scene::Light light = light_of(type);

@@ -176,6 +176,7 @@ TEST(SoftSetup, ANarrowSpreadLooksAlongItsDirectionsFromTheLightsPlane) {
     const SoftSetup setup = set_up({light, place}, floor_region());
     ASSERT_EQ(setup.map_kind, MAP_ORTHOGRAPHIC);
     ASSERT_EQ(setup.views.size(), 16U);
+    EXPECT_TRUE(setup.begins_near);
     double widest = 0.0;
     for (const gpu::GpuShadowView& view : setup.views) {
         const glm::dvec3 forward(glm::vec3(view.forward));
