@@ -104,11 +104,19 @@ def _mapping_issues(name, mapping):
 
 def pixels(image):
     """Scene-linear values [row from the bottom, column, 3]."""
+    return decoded(stored_pixels(image), image)
+
+
+def stored_pixels(image):
+    """Values as the image has them [row from the bottom, column, 3]."""
     width, height = image.size
     values = np.empty(width * height * image.channels, dtype=np.float32)
     image.pixels.foreach_get(values)
     values = values.reshape(height, width, -1)
-    values = values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
+    return values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
+
+
+def decoded(values, image):
     # Blender converts images of floats as it loads them, and keeps bytes as they are.
     if not image.is_float and image.colorspace_settings.name not in AS_STORED:
         values = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)

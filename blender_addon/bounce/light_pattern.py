@@ -26,6 +26,9 @@ def image_node(light, emission):
     return node if node.projection == "FLAT" and node.image.source in {"FILE", "GENERATED"} else None
 
 
+# Places along a side between the pixels of a small image.
+_FINE = 128
+
 # Of one export: a light is read once a frame, its image is not animated.
 _known = {}
 
@@ -36,22 +39,50 @@ def forget():
 
 
 def read(node, round_shape):
-    key = (node.image.as_pointer(), round_shape)
+    """(mean colour over the light, {"width", "height", "rgb"}): rgb over the mean, rows from v = 0 up. Where the mean of a
+    channel is 0, so is the pattern's."""
+    key = (node.image.as_pointer(), node.interpolation, node.extension, round_shape)
     if key not in _known:
-        _known[key] = _read(node.image, round_shape)
+        _known[key] = _read(node, round_shape)
     return _known[key]
 
 
-def _read(image, round_shape):
-    """(mean colour over the light, {"width", "height", "rgb"}): rgb over the mean, rows from v = 0 up. Where the mean of a
-    channel is 0, so is the pattern's."""
-    pixels = np.maximum(environment.pixels(image).astype(np.float64), 0.0)
-    cells = _boxes(pixels, min(CELLS, pixels.shape[1]), min(CELLS, pixels.shape[0]))
-    height, width = cells.shape[:2]
-    inside = _share_inside(width, height) if round_shape else np.ones((height, width))
+def _read(node, round_shape):
+    cells = _boxes(_seen(node), CELLS, CELLS)
+    inside = _share_inside(CELLS, CELLS) if round_shape else np.ones((CELLS, CELLS))
     mean = (cells * inside[:, :, None]).sum(axis=(0, 1)) / inside.sum()
     relative = np.divide(cells, mean, out=np.zeros_like(cells), where=mean > 0.0)
-    return mean.tolist(), {"width": width, "height": height, "rgb": [round(float(v), 6) for v in relative.ravel()]}
+    return mean.tolist(), {"width": CELLS, "height": CELLS, "rgb": [round(float(v), 6) for v in relative.ravel()]}
+
+
+def _seen(node):
+    """What the light shows, scene-linear [row, column, 3]: the image, or finely between its pixels where there are few of them."""
+    stored = np.maximum(environment.stored_pixels(node.image).astype(np.float64), 0.0)
+    if node.interpolation != "Closest":
+        for axis in (0, 1):
+            stored = _between(stored, axis, node.extension)
+    # Cycles interpolates bytes as they are encoded.
+    return environment.decoded(stored, node.image)
+
+
+def _between(values, axis, extension):
+    """Linear interpolation along an axis, at _FINE places at least."""
+    count = values.shape[axis]
+    places = count * -(-_FINE // count) if count < _FINE else count
+    at = (np.arange(places) + 0.5) / places * count - 0.5
+    low = np.floor(at).astype(int)
+    part = (at - low).reshape([-1 if i == axis else 1 for i in range(values.ndim)])
+
+    def look_up(index):
+        if extension == "REPEAT":
+            return np.take(values, index % count, axis=axis)
+        found = np.take(values, np.clip(index, 0, count - 1), axis=axis)
+        if extension == "CLIP":
+            outside = (index < 0) | (index >= count)
+            found = np.where(outside.reshape(part.shape), 0.0, found)
+        return found
+
+    return (1.0 - part) * look_up(low) + part * look_up(low + 1)
 
 
 def _boxes(pixels, width, height):
@@ -81,3 +112,7 @@ def issues(node):
     name = sockets.describe(node)
     if not image.is_float and image.colorspace_settings.name not in {*environment.AS_STORED, "sRGB"}:
         yield f"{name}: colour space {image.colorspace_settings.name}; exported as sRGB"
+    if node.interpolation in {"Cubic", "Smart"}:
+        yield f"{name} with interpolation {node.interpolation}; exported as Linear"
+    if node.extension not in {"REPEAT", "EXTEND", "CLIP"}:
+        yield f"{name} with extension {node.extension}; exported as Extend"

@@ -60,6 +60,22 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
 }
 
 // Refuses names of the view that are not there, and options of it that no file would show.
+// What the exporter could not say of the Blender scene: the picture will differ there.
+void warn_of_unsupported(const scene::Scene& scene) {
+    constexpr size_t k_named = 4;
+    std::string named;
+    for (size_t i = 0; i < std::min(scene.unsupported.size(), k_named); ++i) {
+        const scene::Unsupported& item = scene.unsupported[i];
+        named += fmt::format("{}{}: {}", i == 0 ? "" : "; ", item.object, item.what);
+    }
+    if (scene.unsupported.size() > k_named) {
+        named += fmt::format("; and {} more, which bounce info lists", scene.unsupported.size() - k_named);
+    }
+    if (!named.empty()) {
+        log::warning("Blender's scene has what the file has no words for: {}", named);
+    }
+}
+
 void check_view(const Arguments& arguments, const scene::ViewSettings& view, const Settings& settings) {
     if (!arguments.view.any()) {
         return;
@@ -150,6 +166,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         log::warning("{}", warning);
     }
     const scene::Scene& scene = loaded.scene;
+    warn_of_unsupported(scene);
     Settings settings = arguments.render.settings(scene);
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -184,6 +188,20 @@ ocio::ConstCPUProcessorRcPtr processor_for(const ViewTransform& asked) {
     }
 }
 
+// Standard needs no configuration, but who names one wants to know that it is not there. OpenColorIO's own
+// are no files.
+void warn_of_missing_configuration() {
+    const char* named = std::getenv("OCIO");
+    if (named == nullptr || *named == '\0' || std::string_view(named).find("://") != std::string_view::npos) {
+        return;
+    }
+    std::error_code error;
+    if (!std::filesystem::exists(named, error)) {
+        warn_once(fmt::format(
+            "the colour configuration {} of $OCIO does not exist; Standard for sRGB needs none", named));
+    }
+}
+
 }  // namespace
 
 bool is_plain_standard(const ViewTransform& view) {
@@ -201,6 +219,9 @@ std::string unknown_name(const ViewTransform& view) {
 
 Image to_display(const Image& scene_linear, const ViewTransform& view) {
     Image display;
+    if (is_plain_standard(view)) {
+        warn_of_missing_configuration();
+    }
     const auto processor = is_plain_standard(view) ? nullptr : processor_for(view);
     if (processor) {
         display = scene_linear;

@@ -105,8 +105,9 @@ vec3 reflected(Surface s, vec3 l, vec3 v, float tangent) {
 
 #if PROFILE != PROFILE_AREA && MAP_KIND != MAP_ORTHOGRAPHIC
 // A profile's mean over the disk that a light with a radius shows a receiver; the middle's where it has none. It softens the
-// rim of a spot's cone. l: from the receiver to the light.
-float facing_disk_profile(vec3 position, vec3 l) {
+// rim of a spot's cone. Parts of an even disk count by what they send the receiver: by both cosines over the squared distance.
+// l: from the receiver to the light, whose middle is `distance_` away.
+float facing_disk_profile(vec3 position, vec3 normal, vec3 l, float distance_) {
 #if PROFILE == PROFILE_UNIFORM || !defined(SIZED)
     return light_profile(normalize(light_from_render(position)));
 #else
@@ -114,14 +115,20 @@ float facing_disk_profile(vec3 position, vec3 l) {
     vec3 y = cross(l, x);
     float radius = sqrt(light.intensity.w);
     float sum = 0.0;
+    float weights = 0.0;
     for (int i = 0; i < RIM_PLACES; ++i) {
         // Of even density: Vogel 1979, "A Better Way to Construct the Sunflower Head".
         float angle = GOLDEN_ANGLE * float(i);
         float out_ = radius * sqrt((float(i) + 0.5) / float(RIM_PLACES));
         vec3 place = (x * cos(angle) + y * sin(angle)) * out_;
-        sum += light_profile(normalize(light_from_render(position - place)));
+        // In parts of the distance, of which the fourth power must not overflow.
+        vec3 towards = l + place / distance_;
+        float squared = dot(towards, towards);
+        float weight = max(dot(normal, towards), 0.0) / (squared * squared);
+        sum += weight * light_profile(normalize(light_from_render(position - place)));
+        weights += weight;
     }
-    return sum / float(RIM_PLACES);
+    return weights > 0.0 ? sum / weights : 0.0;
 #endif
 }
 #endif
@@ -190,7 +197,7 @@ void main() {
 #if PROFILE == PROFILE_AREA
         vec3 radiance = area_light(s, v);
 #else
-        float profile = facing_disk_profile(s.position, l);
+        float profile = facing_disk_profile(s.position, s.normal, l, sqrt(squared));
         // A light with a radius is a disk that faces the point: on its axis that adds r^2 to d^2.
         float tangent = sqrt(light.intensity.w / squared);
 #ifdef LOBES

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from bounce import camera_math, draco_library, lights, read_world, sockets, textures, tracks, trs
+from bounce import camera_math, draco_library, light_pattern, lights, read_world, sockets, textures, tracks, trs
 from bounce.pointers import Pointer
 
 
@@ -169,3 +169,29 @@ def test_draco_is_looked_for_in_order(tmp_path):
     assert draco_library.locate(own, addon, environment) == own and environment == {}
     assert draco_library.locate(own, addon, {draco_library.VARIABLE: str(built)}) == built
     assert draco_library.locate(own, addon, {draco_library.VARIABLE: str(tmp_path / "gone.so")}) is None
+
+
+class _Bytes:
+    """An image of 2 x 1 bytes, black and white, in sRGB."""
+
+    size, channels, is_float = (2, 1), 4, False
+    colorspace_settings = SimpleNamespace(name="sRGB")
+    stored = np.array([0, 0, 0, 1, 1, 1, 1, 1], dtype=np.float32)
+
+    @property
+    def pixels(self):
+        return SimpleNamespace(foreach_get=lambda values: values.__setitem__(slice(None), self.stored))
+
+    def as_pointer(self):
+        return id(self)
+
+
+@pytest.mark.parametrize("interpolation, extension, mean",
+                         # A quarter black, a quarter white, between them the mean of the decoded ramp, which is 0.3103.
+                         [("Closest", "EXTEND", 0.5), ("Linear", "EXTEND", 0.25 + 0.5 * 0.3103), ("Linear", "REPEAT", 0.3103)])
+def test_a_lights_image_is_interpolated_as_it_is_encoded(interpolation, extension, mean):
+    light_pattern.forget()
+    node = SimpleNamespace(image=_Bytes(), interpolation=interpolation, extension=extension)
+    color, pattern = light_pattern.read(node, False)
+    assert color == pytest.approx([mean] * 3, abs=2e-3)
+    assert np.mean(pattern["rgb"]) == pytest.approx(1.0, abs=1e-5)

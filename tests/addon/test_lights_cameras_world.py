@@ -143,10 +143,15 @@ def test_image_over_an_area_light(scene, name):
     light = next(light for light in scene.gltf.bounce["lights"] if light["name"] == name)
     # A disk in the middle of four even quarters has as much of each.
     assert light["color"] == pytest.approx([0.75, 0.375, 0.75])
-    assert (light["pattern"]["width"], light["pattern"]["height"]) == (2, 2)
+    assert (light["pattern"]["width"], light["pattern"]["height"]) == (16, 16)
+    cells = np.array(light["pattern"]["rgb"]).reshape(16, 16, 3)
     third = 4 / 3
-    assert light["pattern"]["rgb"] == pytest.approx(
-        [third, 0, 0, 0, third, 0, 0, 0, third, 2 * third, 2 * third, 2 * third], abs=1e-5)
+    quarters = np.array([[[third, 0, 0], [0, third, 0]], [[0, 0, third], [2 * third, 2 * third, 2 * third]]])
+    if name == "Pattern":  # Closest
+        assert cells == pytest.approx(np.repeat(np.repeat(quarters, 8, axis=0), 8, axis=1), abs=1e-5)
+    else:  # Linear, repeated: between the pixels' middles, which lie on the borders of cells, colours run into each other
+        assert cells[3:5, 3:5].mean(axis=(0, 1)) == pytest.approx(quarters[0, 0], abs=0.2)
+        assert cells[7:9, 7:9].mean(axis=(0, 1)) == pytest.approx([1, 1, 1], abs=0.1)
 
 
 def test_unsupported(scene):

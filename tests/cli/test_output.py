@@ -157,3 +157,12 @@ def test_a_second_interrupt_ends_it_at_once(binary, scene, tmp_path):
         process.send_signal(signal.SIGINT)
         assert process.wait(timeout=20) == -signal.SIGINT
     assert names(tmp_path) == ["scene.glb"]
+
+
+def test_what_the_exporter_could_not_say_is_warned_of(render, tmp_path):
+    document = gltf_scenes.lit_square()
+    document["extensions"]["BOUNCE_scene"]["unsupported"] = [{"object": f"Thing {i}", "what": "glass"} for i in range(6)]
+    result = render(gltf_scenes.write_glb(tmp_path / "lost.glb", document), "-o", "a.exr", "--frames", "12")
+    assert result.returncode == 0
+    warnings = [line for line in result.stderr.splitlines() if "warning" in line]
+    assert len(warnings) == 1 and "Thing 0: glass" in warnings[0] and "and 2 more, which bounce info lists" in warnings[0], result.stderr

@@ -119,6 +119,7 @@ def test_without_any_configuration(bounce, render, scene, viewed, tmp_path):
     refused(render(scene, "-o", "a.png", "--view-transform", "Filmic", environment=NOTHING), "Filmic", "Standard")
     broken = {"OCIO": str(tmp_path / "missing.ocio"), "BLENDER": NOTHING["BLENDER"]}
     warned(render(filmic, "-o", "filmic.png", "--frames", "12", environment=broken), "missing.ocio", "Standard")
+    warned(render(scene, "-o", "standard.png", "--frames", "12", environment=broken), "missing.ocio", "needs none")
 
 
 @needs_blender

@@ -110,6 +110,33 @@ TEST_F(LightLaws, ALightWithARadiusShinesOverTheHorizon) {
     }
 }
 
+TEST_F(LightLaws, ASpotWithALargeRadiusCountsItsPartsByWhatTheySend) {
+    // A disk that faces the floor below it, up to half again as wide as it is high. Its rim looks down
+    // aslant, with less of the cone's profile, and counts less. 2 %: 64 places on it.
+    constexpr double height = 2.0;
+    constexpr double half_cone = 0.7;
+    for (const double radius : {0.5, 1.5, 3.0}) {
+        scene::Light light;
+        light.type = scene::LightType::spot;
+        light.power_w = 100.0F;
+        light.radius_m = static_cast<float>(radius);
+        light.cone_angle_rad = static_cast<float>(2.0 * half_cone);
+        light.blend = 0.5F;
+        light.cast_shadow = false;
+        double sum = 0.0;
+        constexpr int rings = 2000;
+        for (int i = 0; i < rings; ++i) {
+            const double out = radius * std::sqrt((i + 0.5) / rings);  // of even area
+            const double cosine = height / std::hypot(height, out);
+            const double t =
+                std::clamp((cosine - std::cos(half_cone)) / ((1.0 - std::cos(half_cone)) * 0.5), 0.0, 1.0);
+            sum += cosine * t * t * (3.0 - 2.0 * t) * std::pow(cosine, 4.0) / (height * height) / rings;
+        }
+        const Rendered r = plane_under(light, height, 0.01);
+        EXPECT_NEAR(r.at(k_size / 2, k_size / 2).x / (100.0 / (4.0 * pi) * sum / pi), 1.0, 0.02) << radius;
+    }
+}
+
 TEST_F(LightLaws, Sun) {
     scene::Light light;
     light.type = scene::LightType::sun;

@@ -69,6 +69,7 @@ def pattern(name, coordinate, shape):
     texture.image = bpy.data.images.new(name, 2, 2, float_buffer=True)
     texture.image.pixels = [1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 2, 2, 2, 1]
     texture.image.pack()
+    texture.interpolation = "Linear" if shape == "DISK" else "Closest"
     tree.links.new(geometry.outputs[coordinate], texture.inputs["Vector"])
     tree.links.new(texture.outputs["Color"], tree.nodes["Emission"].inputs["Color"])
 
