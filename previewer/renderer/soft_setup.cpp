@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -176,19 +177,25 @@ gpu::GpuShadowView slanted_view(const Basis& basis, const glm::dvec2& slant, dou
     return view;
 }
 
-void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Region>& receivers,
-                const gpu::DrawBox& all, int samples, SoftSetup& out) {
-    out.map_kind = MAP_ORTHOGRAPHIC;
-    const Basis basis = light_basis(setup);
-    double near = std::numeric_limits<double>::max();
-    double far = -near;
+// The least and the largest depth of a box along a direction.
+std::pair<double, double> depths_along(const glm::dvec3& direction, const gpu::DrawBox& all) {
+    double near = k_endless;
+    double far = -k_endless;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p((corner & 1) != 0 ? all.high.x : all.low.x,
                            (corner & 2) != 0 ? all.high.y : all.low.y,
                            (corner & 4) != 0 ? all.high.z : all.low.z);
-        near = std::min(near, glm::dot(p, basis.z));
-        far = std::max(far, glm::dot(p, basis.z));
+        near = std::min(near, glm::dot(p, direction));
+        far = std::max(far, glm::dot(p, direction));
     }
+    return {near, far};
+}
+
+void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Region>& receivers,
+                const gpu::DrawBox& all, int samples, SoftSetup& out) {
+    out.map_kind = MAP_ORTHOGRAPHIC;
+    const Basis basis = light_basis(setup);
+    const auto [near, far] = depths_along(basis.z, all);
     // As for the hard shadow's map: rounding cuts nothing off, and a flat scene keeps a volume.
     const double room = std::max(0.005 * (far - near), 1e-4);
     const double range = far - near + 2.0 * room;
@@ -207,14 +214,7 @@ void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Regio
 double reach_of(const LightSetup& setup, const gpu::DrawBox& all) {
     const Basis basis = light_basis(setup);
     const glm::dvec3 middle(glm::vec3(setup.gpu.position));
-    double reach = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) != 0 ? all.high.x : all.low.x,
-                           (corner & 2) != 0 ? all.high.y : all.low.y,
-                           (corner & 4) != 0 ? all.high.z : all.low.z);
-        reach = std::max(reach, glm::dot(p - middle, basis.z));
-    }
-    return reach;
+    return std::max(depths_along(basis.z, all).second - glm::dot(middle, basis.z), 0.0);
 }
 
 // Whether an area light's spread is so narrow that a receiver sees but a small part of the light anywhere: of
