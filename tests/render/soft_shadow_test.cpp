@@ -268,6 +268,32 @@ TEST_F(SoftShadows, ABeamHasASharpEdgeAndNothingBehindItHidesIt) {
     }
 }
 
+TEST_F(SoftShadows, AnImagesColoursAreInThePenumbra) {
+    // The light's half towards -X is red, the other green: where the half plane hides one of them, the other
+    // is left.
+    scene::Light light = light_of(scene::LightType::area);
+    light.shape = scene::AreaShape::rectangle;
+    light.size_x_m = 0.9F;
+    light.size_y_m = 0.5F;
+    light.pattern = {2, 1, {{2.0F, 0.0F, 1.0F}, {0.0F, 2.0F, 1.0F}}};
+    const CameraView camera = camera_from_above(k_width, 10.0);
+    const Rendered lit = draw(scene_with(light, overhead(), false), camera, settings());
+    const Rendered shaded = draw(scene_with(light, overhead(), true), camera, settings());
+    double red_alone = 0.0;
+    double green_alone = 0.0;
+    for (int x = k_pixels / 2 + 2; x < k_pixels; ++x) {
+        const glm::dvec3 part = shaded.at(x, k_pixels / 2) / lit.at(x, k_pixels / 2);
+        red_alone = std::max(red_alone, part.r - part.g);
+        green_alone = std::max(green_alone, part.g - part.r);
+        const glm::dvec3 left = shaded.at(x, k_pixels / 2);
+        // Each place sends as much blue as the mean of its red and green.
+        EXPECT_NEAR(left.b, 0.5 * (left.r + left.g), 0.002 * lit.at(x, k_pixels / 2).b);
+    }
+    EXPECT_GT(std::max(red_alone, green_alone), 0.9)
+        << "one half is seen whole where nothing is of the other";
+    EXPECT_LT(std::min(red_alone, green_alone), 0.02);
+}
+
 TEST_F(SoftShadows, AHardLightIsDrawnAsWithoutThem) {
     for (const auto type : {scene::LightType::spot, scene::LightType::point, scene::LightType::sun}) {
         const scene::Light light = light_of(type);
