@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/converge_options.h"
 #include "cli/frame_list.h"
 #include "cli/frame_writer.h"
 #include "cli/render_options.h"
@@ -39,6 +40,7 @@ struct Arguments {
     SceneSourceOptions source;
     RenderOptions render;
     ViewOptions view;
+    ConvergeOptions converge;
 };
 
 std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& scene) {
@@ -107,6 +109,13 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
         glFinish();
         const Stopwatch rendering;
         picture = {};
+        if (arguments.converge.converge) {
+            Converged converged = converge(renderer, now, with, arguments.converge.target(), mode,
+                                           [] { return InterruptGuard::interrupted(); });
+            FrameReport report = converged.report;
+            stats.converged = std::move(converged);
+            return std::pair(std::move(report), rendering.ms());
+        }
         FrameReport report = with.samples > 1 ? render_samples(renderer, now, with, mode, picture)
                                               : renderer.render(now.pose, now.camera, with, mode, before);
         glFinish();
@@ -118,7 +127,14 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
     // Times are of steady state: shaders are compiled and textures made by a rendering that is not counted.
     const bool warm_up = arguments.repeat > 1 || (first && !arguments.stats.empty());
     FrameReport found;
-    if (warm_up) {
+    if (warm_up && arguments.converge.converge) {
+        // Two passes have all shaders.
+        const Stopwatch rendering;
+        found = converge(renderer, now, finding, {.passes = 2}, gl::TimingMode::off, nullptr).report;
+        if (first) {
+            *first_ms = rendering.ms();
+        }
+    } else if (warm_up) {
         auto [report, ms] = once(gl::TimingMode::off, finding);
         found = std::move(report);
         if (first) {
@@ -133,7 +149,7 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
     if (!warm_up) {
         found = stats.report;
     }
-    if (!arguments.stats.empty() && arguments.pass_times) {
+    if (!arguments.stats.empty() && arguments.pass_times && !arguments.converge.converge) {
         // Passes are timed in renderings of their own, so that waiting for each does not slow the frame's
         // time.
         Settings counting = settings;
@@ -174,6 +190,10 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
             "--measure-removed needs --technique ism: only kernels of virtual point lights are bounded");
     }
     check_view(arguments, scene.view, settings);
+    arguments.converge.check(settings);
+    if (arguments.converge.converge && arguments.removed) {
+        throw usage_error("--measure-removed is of a single frame; give no --converge beside it");
+    }
     const int animation = arguments.render.animation_index(scene);
     const std::vector<int> frames = choose_frames(arguments, scene);
     for (const std::string& output : arguments.outputs) {
@@ -218,16 +238,23 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
                           frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
         measured.frame = frame;
         measured.time_s = time_s;
-        const Image image = settings.samples > 1 ? picture.mean() : renderer.read_color();
-        if (const size_t faulty = picture.faulty_pixels(); faulty > 0) {
+        const Image image = measured.converged     ? std::exchange(measured.converged->picture, Image{})
+                            : settings.samples > 1 ? picture.mean()
+                                                   : renderer.read_color();
+        const size_t faulty =
+            measured.converged ? measured.converged->faulty_pixels : picture.faulty_pixels();
+        if (faulty > 0) {
             log::warning("frame {}: {} pixels are not finite, since one of their {} samples is not", frame,
-                         faulty, settings.samples);
+                         faulty, measured.converged ? measured.converged->state.passes : settings.samples);
         }
         for (const std::string& output : arguments.outputs) {
             writer.write(frame_path(output, frame), image, pose.view, frame);
         }
         ++written;
-        progress.step(fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
+        progress.step(measured.converged
+                          ? fmt::format("frame {}, {}", frame,
+                                        describe(*measured.converged, arguments.converge.target()))
+                          : fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
         if (frame == frames.front()) {
             for (const std::string& note : measured.report.notes) {
                 log::info("note: {}", note);
@@ -236,7 +263,17 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
                 log::info("note: {}", approximation);
             }
         }
+        const bool cut_short = measured.converged && measured.converged->end == ConvergeEnd::stopped;
         stats.add(std::move(measured));
+        if (cut_short) {
+            if (!arguments.stats.empty()) {
+                stats.start(start, run);
+                stats.write(arguments.stats);
+            }
+            interrupts.throw_if_interrupted(
+                fmt::format("frame {} is written as far as it had come, {} of {} frames in all", frame,
+                            written, frames.size()));
+        }
     }
     if (!arguments.stats.empty()) {
         stats.start(start, run);
@@ -273,6 +310,7 @@ void add_render(CLI::App& app, Run& run) {
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     arguments->render.add_still_to(*command);
+    arguments->converge.add_to(*command);
     arguments->view.add_to(*command);
     command->callback(
         [command, arguments, &run] { run = [command, arguments] { return render(*command, *arguments); }; });

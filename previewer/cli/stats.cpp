@@ -33,6 +33,41 @@ ordered_json left_out_json(const std::vector<LeftOut>& left_out) {
     return out;
 }
 
+const char* end_name(ConvergeEnd end) {
+    switch (end) {
+        case ConvergeEnd::relmse:
+            return "relmse";
+        case ConvergeEnd::seconds:
+            return "time";
+        case ConvergeEnd::passes:
+            return "passes";
+        case ConvergeEnd::stopped:
+            return "interrupted";
+    }
+    return "";
+}
+
+// Not known is null.
+ordered_json state_json(const ConvergeState& state) {
+    ordered_json out = {{"passes", state.passes}, {"seconds", state.seconds}};
+    for (const auto& [name, value] :
+         {std::pair("relmse", state.relmse), std::pair("relmse_low", state.relmse_low),
+          std::pair("relmse_high", state.relmse_high)}) {
+        out[name] = value >= 0.0 ? ordered_json(value) : ordered_json();
+    }
+    return out;
+}
+
+ordered_json converged_json(const Converged& converged) {
+    ordered_json out = state_json(converged.state);
+    out["ended_by"] = end_name(converged.end);
+    out["history"] = ordered_json::array();
+    for (const ConvergeState& state : converged.history) {
+        out["history"].push_back(state_json(state));
+    }
+    return out;
+}
+
 ordered_json frame_json(const FrameStats& frame, int pixels) {
     ordered_json out = {{"frame", frame.frame},
                         {"time_s", frame.time_s},
@@ -58,6 +93,9 @@ ordered_json frame_json(const FrameStats& frame, int pixels) {
     if (frame.report.gathered_pixels >= 0) {
         out["gathered_pixels"] = frame.report.gathered_pixels;
         out["gathered_share"] = static_cast<double>(frame.report.gathered_pixels) / pixels;
+    }
+    if (frame.converged) {
+        out["converged"] = converged_json(*frame.converged);
     }
     if (frame.report.removed) {
         out["removed"] = {{"indirect_mean", frame.report.removed->indirect},

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/stopwatch.h"
 #include "gl/context.h"
+#include "renderer/converge.h"
 #include "renderer/renderer.h"
 
 namespace bounce::cli {
@@ -18,6 +20,7 @@ struct FrameStats {
     // The passes of every repetition with per-pass timing, in the order in which they ran; empty without it.
     std::vector<std::vector<gl::PassTime>> all_passes;
     FrameReport report;
+    std::optional<Converged> converged;    // its picture is not kept
     [[nodiscard]] double wall_ms() const;  // their median
 };
 

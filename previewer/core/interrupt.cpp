@@ -40,6 +40,10 @@ InterruptGuard::~InterruptGuard() {
     }
 }
 
+bool InterruptGuard::interrupted() {
+    return g_signal != 0;
+}
+
 void InterruptGuard::throw_if_interrupted(std::string_view state) const {
     if (g_signal != 0) {
         throw Error(g_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted,

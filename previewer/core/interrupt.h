@@ -20,6 +20,8 @@ class InterruptGuard {
     // Throws Error with exit code 128 + signal, as a shell reports a process that a signal ended. `state`
     // says what there is by now ("2 of 48 frames are written").
     void throw_if_interrupted(std::string_view state) const;
+    // Whether a signal has come.
+    [[nodiscard]] static bool interrupted();
 };
 
 }  // namespace bounce

@@ -60,6 +60,10 @@ BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buff
     return {add_version(static_cast<int>(resources_.size()) - 1)};
 }
 
+void FrameGraph::keep(TextureHandle handle, gl::Texture& into) {
+    resources_[at(resource_of_version_[at(handle.version)])].kept = &into;
+}
+
 TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc) {
     FrameGraph::Resource resource;
     resource.name = name;
@@ -146,7 +150,9 @@ void FrameGraph::acquire(Resource& resource) {
 }
 
 void FrameGraph::release(Resource& resource) {
-    if (resource.texture) {
+    if (resource.texture && resource.kept != nullptr) {
+        *resource.kept = std::move(resource.texture);
+    } else if (resource.texture) {
         pool_.release(std::move(resource.texture));
     }
     if (resource.buffer) {

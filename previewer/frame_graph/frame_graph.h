@@ -83,6 +83,10 @@ class FrameGraph {
         passes_.back().execute = setup(builder);
     }
 
+    // The graph's own texture, as its last pass leaves it, goes to `into` instead of back to the pool; stays
+    // empty where no pass that runs uses it. `into` must outlive execute().
+    void keep(TextureHandle handle, gl::Texture& into);
+
     // Passes that are added until the next call run only where the condition holds when their turn comes;
     // null: they always run. What a pass that does not run would have written is undefined.
     void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
@@ -110,6 +114,7 @@ class FrameGraph {
         const gl::Texture* imported = nullptr;
         gl::Buffer* imported_buffer = nullptr;
         gl::Texture texture;
+        gl::Texture* kept = nullptr;  // where the texture goes in the end
         gl::Buffer buffer;
         int latest_version = -1;
         int first_use = -1;

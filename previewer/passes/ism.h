@@ -44,6 +44,8 @@ struct VplSet {
     int interleave = 1;    // n: each pixel gathers from an n x n-th of the lights
     int subset = 0;        // lights in such a part
     int cell_columns = 1;  // of a subset's cells of the sampled square
+    uint32_t seed = 0;     // 0: always the same lights; else others for every seed, each of the same power
+    float extent = 1.0F;   // the surface that bounds a light's kernel, in parts of the one it stands for
     bool image = false;    // those of the world's image: what they light has its reflection from the image
     bool distant = false;  // lights at infinity, with orthographic maps (renderer/world_lights.h)
     bool window = false;   // maps of a part of the hemisphere: places on a light (renderer/imperfect_setup.h)

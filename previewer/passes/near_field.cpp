@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace bounce::passes {
 namespace {
@@ -10,6 +11,16 @@ namespace {
 // Sets of samples that are averaged at least: the blur does it over a block of pixels, where blocks are as
 // large.
 constexpr int k_least_blend = 16;
+
+// Turns of the samples' radii and angles, in [0, 1): those of successive seeds are spread evenly (Roberts
+// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+glm::vec2 seeded_turns(uint32_t seed) {
+    const auto fraction = [&](double step) {
+        const double turned = step * seed;
+        return static_cast<float>(turned - std::floor(turned));
+    };
+    return {fraction(0.7548776662466927), fraction(0.5698402909980532)};
+}
 
 }  // namespace
 
@@ -66,6 +77,8 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
                 context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
                 resources.texture(source.rsm).bind_image(IMG_RSM, GL_READ_ONLY);
                 glUniform1i(0, inputs.importance.row_count);
+                const glm::vec2 turns = seeded_turns(inputs.seed);
+                glUniform3f(2, turns.x, turns.y, inputs.extent);
                 for (int round = 0; round < rounds; ++round) {
                     glUniform2i(1, round, rounds);
                     glDispatchComputeIndirect(0);

@@ -12,6 +12,8 @@ struct NearFieldInputs {
     VplImportance importance;
     gpu::UniformArena::Slot uniforms;  // IsmUniforms of the lights
     int interleave = 1;
+    uint32_t seed = 0;  // as of the lights (VplSet)
+    float extent = 1.0F;
     bool glossy = false;
 };
 

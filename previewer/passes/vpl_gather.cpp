@@ -23,6 +23,15 @@ gl::Defines gather_defines(const PassContext& context, const VplGatherInputs& in
     return defines;
 }
 
+// Which pixel of a block gathers from the first subset: each in turn, as seeds follow one another, near ones
+// far apart.
+glm::ivec2 seeded_pixel(const VplSet& set) {
+    const auto n = static_cast<uint32_t>(set.interleave);
+    // An odd number, so that it visits every pixel of a block, whose side is a power of two.
+    const uint32_t place = set.seed * (n * n * 5 / 8 | 1U) % (n * n);
+    return {static_cast<int>(place % n), static_cast<int>(place / n)};
+}
+
 // One dispatch for each subset of the lights and each chunk of it; the very first overwrites.
 void dispatch_chunks(const PassContext& context, const VplSet& set, gl::Defines defines, bool first_set) {
     const int n = set.interleave;
@@ -32,6 +41,8 @@ void dispatch_chunks(const PassContext& context, const VplSet& set, gl::Defines 
         if (!first_set || first > 0) defines["NEXT_CHUNK"] = "1";
         if (first > 0) defines["NEXT_LOBES"] = "1";
         context.programs.compute("passes/vpl_gather.comp", defines).use();
+        const glm::ivec2 first_pixel = seeded_pixel(set);
+        glUniform2i(1, first_pixel.x, first_pixel.y);
         for (int subset = 0; subset < n * n; ++subset) {
             glUniform2i(0, subset, subset * set.subset + first);
             glDispatchCompute(static_cast<GLuint>((context.width + block - 1) / block),

@@ -88,6 +88,7 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
             for_each([&](const Source& source, int row, int texel) {
                 gl::Defines defines = source.defines;
                 if (uniform) defines["HALTON"] = "1";
+                if (layout.seed != 0) defines["SEEDED"] = "1";
                 context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
                 if (uniform) {
@@ -97,6 +98,10 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
                     resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
                 }
                 resources.buffer(vpls).bind_storage(SSBO_VPLS_OUT);
+                if (layout.seed != 0) {
+                    glUniform1ui(4, layout.seed);
+                    glUniform1f(5, layout.extent);
+                }
                 glUniform4i(0, row, source.rows, rows, texel);
                 glUniform3i(1, layout.interleave, layout.subset, layout.cell_columns);
                 glUniform3i(2, layout.maps, layout.map_size, layout.columns);
@@ -120,6 +125,7 @@ BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const Vp
             context.uniforms.bind(UBO_ISM, set.uniforms);
             resources.buffer(out).bind_storage(SSBO_VPLS_OUT);
             glUniform1i(0, std::max(set.maps / k_most_compared, 1));
+            glUniform1f(1, set.extent);
             glDispatchCompute((static_cast<GLuint>(set.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
             finish_writes();
         };

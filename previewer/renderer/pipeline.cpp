@@ -230,6 +230,9 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
 struct FilteredLight {
     TextureHandle bounced;
     TextureHandle lobes;
+    // Before the blur; invalid where there is none.
+    TextureHandle sharp_bounced;
+    TextureHandle sharp_lobes;
 };
 
 // Light of all bounces at once.
@@ -256,18 +259,20 @@ FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
                                   .importance = lit.importance,
                                   .uniforms = lit.sets.front().uniforms,
                                   .interleave = lit.sets.front().interleave,
+                                  .seed = lit.sets.front().seed,
+                                  .extent = lit.sets.front().extent,
                                   .glossy = in.plan.glossy},
                                  light);
     }
     const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
-        return {bounced, light.lobes};
+        return {bounced, light.lobes, {}, {}};
     }
     const auto blur = [&](TextureHandle of) {
         return of.valid() ? add_bounced_blur(graph, context, gbuffer, of, interleave, in.plan.narrow_lobes)
                           : of;
     };
-    return {blur(bounced), blur(light.lobes)};
+    return {blur(bounced), blur(light.lobes), bounced, light.lobes};
 }
 
 // What lights a G-buffer's surfaces, as the composite takes it; invalid where there is none.
@@ -329,10 +334,10 @@ Light add_layer_light(FrameGraph& graph, const PipelineInputs& in, const Shared&
     return out;
 }
 
-// Blended surfaces over the picture of the solid ones: peeled off from the front, shaded one layer after the
+// Blended surfaces over pictures of the solid ones: peeled off from the front, shaded one layer after the
 // other as those are, laid over from the back. What a layer takes is not run where no surface is in it.
-TextureHandle add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
-                          TextureHandle picture) {
+void add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
+                 std::vector<TextureHandle>& pictures) {
     using namespace passes;
     std::vector<PeeledLayer> layers;
     for (int number = 1; number <= in.plan.blend_layers; ++number) {
@@ -364,10 +369,25 @@ TextureHandle add_blended(FrameGraph& graph, const PipelineInputs& in, const Sha
             layer = add_antialias(graph, in.context, gbuffer, samples[i], layer, {},
                                   fmt::format("layer {}", i + 1));
         }
-        picture = add_over(graph, in.context, layer, picture, static_cast<int>(i) + 1);
+        for (TextureHandle& picture : pictures) {
+            picture = add_over(graph, in.context, layer, picture, static_cast<int>(i) + 1);
+        }
     }
     graph.set_condition(nullptr);
-    return picture;
+}
+
+// A map that is drawn once for all pictures of a moment; kept: where it is, null: it is drawn for this one
+// alone.
+template <typename Add>
+TextureHandle kept_map(FrameGraph& graph, const std::string& name, gl::Texture* kept, Add&& add) {
+    if (kept != nullptr && *kept) {
+        return graph.import_texture(name, *kept);
+    }
+    const TextureHandle made = add();
+    if (kept != nullptr) {
+        graph.keep(made, *kept);
+    }
+    return made;
 }
 
 // What bounding takes from that light; invalid where nothing is bounded: the near field gathers the first
@@ -456,6 +476,15 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     // Where bounced light is gathered.
     const GBuffer lit_surfaces = in.plan.hybrid ? add_simplified_gbuffer(graph, context, in.camera) : gbuffer;
 
+    KeptMaps* const kept = in.one_of_many != nullptr ? in.one_of_many->kept : nullptr;
+    if (kept != nullptr) {
+        kept->hard.resize(in.lights.size());
+        kept->soft.resize(in.lights.size());
+        kept->rsms.resize(in.bounce_sources.size());
+    }
+    const auto keep = [kept](std::vector<gl::Texture> KeptMaps::*maps, size_t at) {
+        return kept != nullptr ? &(kept->*maps)[at] : nullptr;
+    };
     TextureHandle direct;
     std::vector<ShadowMaps> shadows(in.lights.size());
     GatherInputs gather{.gbuffer = gbuffer, .sources = {}, .full_sum = in.settings.rsm_full_sum};
@@ -470,17 +499,25 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             if (!in.imperfect[i].empty()) {
                 shadows[i].imperfect = add_imperfect_maps(graph, in, scene, i);
             }
-            const bool hard = in.plan.shadows[i] && !in.plan.soft[i];
-            shadows[i].hard = hard ? add_shadow_map(graph, context, light) : TextureHandle{};
-            shadows[i].soft = !light.soft.empty() ? add_soft_maps(graph, context, light) : TextureHandle{};
+            if (in.plan.shadows[i] && !in.plan.soft[i]) {
+                shadows[i].hard = kept_map(graph, "shadow map: " + light.name, keep(&KeptMaps::hard, i),
+                                           [&] { return add_shadow_map(graph, context, light); });
+            }
+            if (!light.soft.empty()) {
+                shadows[i].soft = kept_map(graph, "soft shadow maps: " + light.name, keep(&KeptMaps::soft, i),
+                                           [&] { return add_soft_maps(graph, context, light); });
+            }
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }
         if (in.plan.indirect && !in.plan.takes_light[i]) {
             first_places.push_back(gather.sources.size());
-            for (const BounceSource& place : in.bounce_sources) {
+            for (size_t at = 0; at < in.bounce_sources.size(); ++at) {
+                const BounceSource& place = in.bounce_sources[at];
                 if (place.light == i) {
-                    gather.sources.push_back(
-                        {place.pass, add_rsm(graph, context, place.pass), place.gather_frame, place.pattern});
+                    const TextureHandle rsm =
+                        kept_map(graph, "rsm: " + place.pass.name, keep(&KeptMaps::rsms, at),
+                                 [&] { return add_rsm(graph, context, place.pass); });
+                    gather.sources.push_back({place.pass, rsm, place.gather_frame, place.pattern});
                 }
             }
         }
@@ -494,8 +531,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
 
     TextureHandle irradiance;
-    TextureHandle bounced;
-    TextureHandle lobes;
+    FilteredLight bounced;
     BouncedLights lit;
     if (!in.plan.imperfect_shadows && in.points != nullptr) {
         scene = add_point_update(graph, context, *in.points);
@@ -518,21 +554,20 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             return;
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
-            const FilteredLight light = add_bounced_light(graph, in, lit_surfaces, sources, lit, emitted);
-            bounced = light.bounced;
-            lobes = light.lobes;
+            bounced = add_bounced_light(graph, in, lit_surfaces, sources, lit, emitted);
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
             const TextureHandle removed = add_removed(graph, in, lit_surfaces, lit, emitted);
-            if (in.removed != nullptr && bounced.valid()) {
-                add_removed_light(graph, context, lit_surfaces, bounced, removed, in.removed);
+            if (in.removed != nullptr && bounced.bounced.valid()) {
+                add_removed_light(graph, context, lit_surfaces, bounced.bounced, removed, in.removed);
             }
             const int interleave = lit.sets.front().interleave;
             if (in.settings.show == Show::removed) {
-                bounced = removed.valid() && interleave > 1
-                              ? add_bounced_blur(graph, context, lit_surfaces, removed, interleave,
-                                                 in.plan.narrow_lobes)
-                              : removed;
+                bounced.bounced = removed.valid() && interleave > 1
+                                      ? add_bounced_blur(graph, context, lit_surfaces, removed, interleave,
+                                                         in.plan.narrow_lobes)
+                                      : removed;
+                bounced.sharp_bounced = {};
             }
         }
     } else if (in.plan.indirect && in.plan.interpolate) {
@@ -551,26 +586,37 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     }
 
     if (!lights_bounce && (in.plan.world_occluded || in.plan.emitters)) {
-        const FilteredLight light = add_bounced_light(graph, in, gbuffer, {}, lit, emitted);
-        bounced = light.bounced;
-        lobes = light.lobes;
+        bounced = add_bounced_light(graph, in, gbuffer, {}, lit, emitted);
     }
-    TextureHandle reflected;
-    if (in.plan.hybrid && bounced.valid()) {
-        reflected = add_reflected(graph, context, lit_surfaces, bounced);
-        bounced = {};
-    }
-    const TextureHandle shaded = add_composite(
-        graph, context, composite_inputs(in, gbuffer, {direct, irradiance, bounced, lobes, reflected}),
-        in.plan.antialias ? TextureHandle{} : in.target);
-    TextureHandle picture = shaded;
     DepthSamples samples;
-    if (in.plan.antialias) {
-        samples = add_depth_samples(graph, context, in.camera);
-        picture = add_antialias(graph, context, gbuffer, samples, shaded, in.target);
+    const auto shade = [&](TextureHandle irradiance_of_bounces, TextureHandle lobes, TextureHandle target) {
+        TextureHandle reflected;
+        if (in.plan.hybrid && irradiance_of_bounces.valid()) {
+            reflected = add_reflected(graph, context, lit_surfaces, irradiance_of_bounces);
+            irradiance_of_bounces = {};
+        }
+        const TextureHandle shaded = add_composite(
+            graph, context,
+            composite_inputs(in, gbuffer, {direct, irradiance, irradiance_of_bounces, lobes, reflected}),
+            in.plan.antialias ? TextureHandle{} : target);
+        if (!in.plan.antialias) {
+            return shaded;
+        }
+        if (!samples.depth.valid()) {
+            samples = add_depth_samples(graph, context, in.camera);
+        }
+        return add_antialias(graph, context, gbuffer, samples, shaded, target);
+    };
+    std::vector<TextureHandle> pictures = {shade(bounced.bounced, bounced.lobes, in.target)};
+    if (in.one_of_many != nullptr && bounced.sharp_bounced.valid()) {
+        pictures.push_back(shade(bounced.sharp_bounced, bounced.sharp_lobes, {}));
     }
     if (in.plan.blend_layers > 0) {
-        picture = add_blended(graph, in, {gbuffer, shadows, gather, sources, lit, emitted, samples}, picture);
+        add_blended(graph, in, {gbuffer, shadows, gather, sources, lit, emitted, samples}, pictures);
+    }
+    const TextureHandle picture = pictures.front();
+    if (in.one_of_many != nullptr) {
+        add_accumulate(graph, context, picture, pictures.back(), *in.one_of_many->means);
     }
     if (in.settings.show == Show::vpls && !lit.sets.empty()) {
         add_all_dots(graph, in, gbuffer, lit, picture);

@@ -5,6 +5,7 @@
 
 #include "gpu/emitter_store.h"
 #include "gpu/point_store.h"
+#include "passes/accumulate.h"
 #include "passes/motion.h"
 #include "passes/pass_context.h"
 #include "passes/removed_light.h"
@@ -30,6 +31,22 @@ struct BounceSource {
     const gl::Buffer* pattern = nullptr;
 };
 
+// Maps that a moment's lights cast once and for all, and that later pictures of the same moment look up
+// again; empty where they are still to be drawn. Parallel to the lights, and to the sources of bounced light.
+struct KeptMaps {
+    std::vector<gl::Texture> hard;
+    std::vector<gl::Texture> soft;
+    std::vector<gl::Texture> rsms;
+};
+
+// One of many pictures of a moment, whose mean is sought.
+struct OneOfMany {
+    uint32_t number = 1;  // from 1; each has other lights, points and pixels' parts of the lights
+    float extent = 1.0F;  // VplSet::extent
+    KeptMaps* kept = nullptr;
+    passes::PictureMeans* means = nullptr;
+};
+
 struct PipelineInputs {
     const FramePlan& plan;
     const Settings& settings;
@@ -53,6 +70,7 @@ struct PipelineInputs {
     int triangles_inside = 0;             // large triangles in maps of lights within the scene
     passes::PreviousFrame previous;       // where the plan shows motion
     TextureHandle target;
+    const OneOfMany* one_of_many = nullptr;  // the picture is taken into its means as well
     // Filled where they are there, each for a wait.
     int* gathered_pixels = nullptr;
     passes::RemovedLight* removed = nullptr;

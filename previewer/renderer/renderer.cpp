@@ -207,8 +207,8 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
 
 Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                                std::span<const scene::EmissivePanel> panels,
-                                               const Settings& settings, FramePlan& plan,
-                                               FrameReport& report) {
+                                               const Settings& settings, FramePlan& plan, FrameReport& report,
+                                               const OneOfMany* one_of_many) {
     LitBounces out;
     if (points_needed(plan, settings) && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
@@ -301,7 +301,15 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     const auto make_bounce = [&](const IsmLayout& layout, const Settings& of) {
         Bounce bounce;
         bounce.lights = vpl_set(layout);
-        bounce.lights.uniforms = uniforms_.add(ism_uniforms(layout, of, occluders, mean_radius));
+        gpu::IsmUniforms uniforms = ism_uniforms(layout, of, occluders, mean_radius);
+        if (one_of_many != nullptr) {
+            bounce.lights.seed = one_of_many->number;
+            bounce.lights.extent = one_of_many->extent;
+            // Maps take the points of others, far from their own.
+            uniforms.points.w =
+                static_cast<int>(one_of_many->number * 0x9e3779b9U % static_cast<uint32_t>(layout.vpls));
+        }
+        bounce.lights.uniforms = uniforms_.add(uniforms);
         IsmLayout maps = layout;
         maps.map_size = irsm.map_size;
         maps.points_a_map = irsm.points_a_map;
@@ -394,17 +402,58 @@ const gl::Buffer& Renderer::pattern(passes::RsmPattern kind, int samples) {
 
 FrameReport Renderer::render(const scene::Pose& pose, const CameraView& view, const Settings& settings,
                              gl::TimingMode timing, const Moment* before) {
+    return render_whole(pose, view, settings, timing, before, nullptr);
+}
+
+FrameReport Renderer::render_whole(const scene::Pose& pose, const CameraView& view, const Settings& settings,
+                                   gl::TimingMode timing, const Moment* before,
+                                   const OneOfMany* one_of_many) {
     // Without the lights at infinity all of the image counts as its mean colour, its suns as well.
     if (environment_ && environment_->has_suns() && settings.world_vpls > 0 && pose.world.strength > 0.0F) {
         return render_lit(environment_->with_suns(pose), view, settings, timing, before,
-                          pose.light_instances.size());
+                          pose.light_instances.size(), one_of_many);
     }
-    return render_lit(pose, view, settings, timing, before, pose.light_instances.size());
+    return render_lit(pose, view, settings, timing, before, pose.light_instances.size(), one_of_many);
+}
+
+FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraView& view,
+                                         const Settings& settings, gl::TimingMode timing, uint32_t number,
+                                         float extent) {
+    if (number == 1) {
+        means_.count = 0;
+        for (std::vector<gl::Texture>* maps : {&kept_.hard, &kept_.soft, &kept_.rsms}) {
+            for (gl::Texture& map : *maps) {
+                if (map) {
+                    pool_.release(std::move(map));
+                }
+            }
+            maps->clear();
+        }
+    }
+    const OneOfMany one{.number = number, .extent = extent, .kept = &kept_, .means = &means_};
+    return render_whole(pose, view, settings, timing, nullptr, &one);
+}
+
+std::vector<glm::vec4> Renderer::resolve_many() {
+    passes::resolve_means(programs_, means_, color_);
+    gl::throw_on_debug_error("resolve means");
+    const auto width = static_cast<size_t>(color_.desc().width);
+    std::vector<glm::vec4> pixels(width * static_cast<size_t>(color_.desc().height));
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(color_.id(), 0, GL_RGBA, GL_FLOAT,
+                      static_cast<GLsizei>(pixels.size() * sizeof(glm::vec4)), pixels.data());
+    for (size_t low = 0, high = pixels.size(); low + width < high; low += width) {
+        high -= width;
+        std::swap_ranges(pixels.begin() + static_cast<std::ptrdiff_t>(low),
+                         pixels.begin() + static_cast<std::ptrdiff_t>(low + width),
+                         pixels.begin() + static_cast<std::ptrdiff_t>(high));
+    }
+    return pixels;
 }
 
 FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& view,
                                  const Settings& settings, gl::TimingMode timing, const Moment* before,
-                                 size_t own_lights) {
+                                 size_t own_lights, const OneOfMany* one_of_many) {
     FrameReport report;
     const gl::TextureDesc target{.format = GL_RGBA32F, .width = settings.width, .height = settings.height};
     if (color_.desc() != target || !color_) {
@@ -532,7 +581,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
     }
     report.lights = static_cast<int>(lights.size());
-    const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report);
+    const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, one_of_many);
     const std::vector<passes::ImperfectMaps> imperfect_maps =
         prepare_imperfect(imperfect, receivers, lights.size(), bounces.soft_points, settings, plan);
     std::vector<double> sent = fluxes;
@@ -604,6 +653,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .triangles_inside = bounces.triangles,
                 .previous = previous_frame,
                 .target = graph.import_texture("color", color_),
+                .one_of_many = one_of_many,
                 .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
                 .removed = report.removed ? &*report.removed : nullptr,
                 .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,

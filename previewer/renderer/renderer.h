@@ -72,6 +72,16 @@ class Renderer {
     FrameReport render(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
                        gl::TimingMode timing = gl::TimingMode::off, const Moment* before = nullptr);
 
+    // The same as one of many pictures of one moment, whose mean is sought (renderer/converge.h): from the
+    // second on the scene must stand as it did for the first, and the size and the lights' settings be the
+    // same. Blended surfaces count. Throws the same.
+    FrameReport render_one_of_many(const scene::Pose& pose, const CameraView& camera,
+                                   const Settings& settings, gl::TimingMode timing, uint32_t number,
+                                   float extent);
+    // The best picture of those so far, into color(), and its estimated error, as passes::resolve_means() has
+    // them: red, green, blue and error, top row first.
+    [[nodiscard]] std::vector<glm::vec4> resolve_many();
+
     // Scene-linear radiance times film exposure, RGBA32F, bottom row first; of the last frame.
     [[nodiscard]] const gl::Texture& color() const { return color_; }
     // The same on the CPU, top row first.
@@ -97,14 +107,18 @@ class Renderer {
         LightSetup setup;
         scene::Light of;
     };
+    FrameReport render_whole(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
+                             gl::TimingMode timing, const Moment* before, const OneOfMany* one_of_many);
     // own_lights: as many of the pose's light instances, the first, are the scene's; the others are suns of
     // the world's image.
     FrameReport render_lit(const scene::Pose& pose, const CameraView& camera, const Settings& settings,
-                           gl::TimingMode timing, const Moment* before, size_t own_lights);
+                           gl::TimingMode timing, const Moment* before, size_t own_lights,
+                           const OneOfMany* one_of_many = nullptr);
     // Samples the points that the plan needs and lays out its bounces; drops occlusion where nothing
     // occludes.
     LitBounces prepare_bounces(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
-                               const Settings& settings, FramePlan& plan, FrameReport& report);
+                               const Settings& settings, FramePlan& plan, FrameReport& report,
+                               const OneOfMany* one_of_many);
     // The pose with what the settings have drawn as area lights; nothing where that is nothing.
     std::optional<scene::PanelPose> light_panels(const scene::Pose& pose, const Settings& settings);
     // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
@@ -127,6 +141,8 @@ class Renderer {
     gpu::UniformArena uniforms_;
     std::unique_ptr<PreviousFrameSource> previous_;  // made when motion is first asked for
     gl::Texture color_;
+    passes::PictureMeans means_;
+    KeptMaps kept_;
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;

@@ -65,8 +65,9 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
 #endif
 }
 
-// A map's index-th point: each map takes a block of the sequence.
+// A map's index-th point: each map takes a block of the sequence, points.w maps further on.
 int point_place(int map, int index) {
+    map = (map + ism.points.w) % ism.atlas.z;
     return ism.points.y + (map * ism.atlas.w % ism.points.x + index) % ism.points.x;
 }
 

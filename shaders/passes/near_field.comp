@@ -17,6 +17,8 @@
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(location = 0) uniform int rows;    // rows of all maps together
 layout(location = 1) uniform ivec2 round_;  // which of how many sets of samples this is
+layout(location = 2) uniform vec3 turns;    // by how much samples are turned, parts of the step and of the circle; extent of
+                                            // a light, as in passes/vpl_draw.comp
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
     uvec2 tiles[];
@@ -73,7 +75,7 @@ void add_sample(Center at, vec2 st, int layer, float measure, float radius, inou
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // texel_measure / texel_importance: the flux a unit of the map reflects there.
     float texels = at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
-    float area = surface_area(p, texels) * light.cone.z;  // as in passes/vpl_draw.comp
+    float area = surface_area(p, texels) * light.cone.z * turns.z;  // as in passes/vpl_draw.comp
     float share = near_share(squared, 1.0 / max(NEAR_RADIUS * NEAR_RADIUS * area, 1e-30));
     float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
     add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,
@@ -100,8 +102,9 @@ void main() {
     float places = float(n * n * round_.y);
     float turn = float((pixel.x % n + pixel.y % n * n) * round_.y + round_.x) / places;
     // A step of the spiral's radius is shared out among the pixels of a block.
+    turn = fract(turn + turns.x);
     float grow = exp(-LOG_STEP * turn);
-    float angle = 2.0 * PI * fract(turn * 0.754877666 * places);
+    float angle = 2.0 * PI * fract(turn * 0.754877666 * places + turns.y);
     vec2 rotate = grow * vec2(cos(angle), sin(angle));
     // Area of the unit disk that a sample at radius 1 stands for: radii are uniform in their logarithm.
     const float ring = 2.0 * PI * LOG_STEP;

@@ -10,6 +10,10 @@
 // maps; the middle is a midpoint rule, far more exact than a random place. Runs once for each light source; a cell
 // belongs to one, and a source has as many as its part of the flux, to one cell.
 //
+// SEEDED: for pictures that are the mean of many. The children's places in the cell turn with the seed, and one of them,
+// picked by flux, is the light, with the cell's flux: single pictures are noisier, but their mean has no midpoint rule in it.
+// EXTENT is what is left then of the area that a light stands for, as the many together leave less to each.
+//
 // STRIPS: rows are patches of surface in the order of a curve, and a cell is a run of whole rows: what lies there has
 // received its light from all lights of the bounce before.
 //
@@ -33,6 +37,12 @@ layout(location = 1) uniform ivec3 layout_;  // n, lights a subset, columns of a
 layout(location = 2) uniform ivec3 maps;     // lights, size of their maps, maps a row of the atlas
 layout(std430, binding = SSBO_VPLS_OUT) writeonly buffer VplOutBlock { GpuVpl drawn[]; };
 
+#ifdef SEEDED
+layout(location = 4) uniform uint seed;
+layout(location = 5) uniform float extent;
+#else
+const float extent = 1.0;
+#endif
 #ifdef HALTON
 layout(location = 3) uniform vec2 share;  // the part of the sequence's first coordinate that is this source's
 #else
@@ -54,12 +64,34 @@ float radical_inverse(uint base, uint i) {
     return value;
 }
 
+uint hash(uint x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+#ifdef SEEDED
+float to_unit(uint bits) {
+    return float(bits >> 8) * (1.0 / 16777216.0);
+}
+
+// By how much a sequence of points turns about the unit square (Cranley and Patterson 1976, "Randomization of Number
+// Theoretic Methods for Multiple Integration"); another one for each number.
+vec2 seeded_shift(uint number) {
+    uint bits = hash(seed * 0x9e3779b9u + hash(number));
+    return vec2(to_unit(bits), to_unit(hash(bits + 1u)));
+}
+#endif
+
 // Puts the light into the list, with its map's place and the area and near field of what it stands for.
 void store(int index, GpuVpl vpl, float area) {
 #ifdef FROM_IRSM
+    area *= extent;
     float near_radius = 0.0;  // the near field looks into reflective shadow maps, and there is none here
 #else
-    area *= light.cone.z;  // lights of the other places stand on the same surface
+    area *= light.cone.z * extent;  // lights of the other places stand on the same surface
     float near_radius = NEAR_RADIUS * sqrt(area);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
@@ -85,6 +117,9 @@ void main() {
         return;
     }
     vec2 h = vec2(radical_inverse(2u, uint(index)), radical_inverse(3u, uint(index)));
+#ifdef SEEDED
+    h = fract(h + seeded_shift(0u));
+#endif
     if (h.x < share.x || h.x >= share.y) {
         return;  // of another source
     }
@@ -103,19 +138,11 @@ void main() {
     float measure = texel_measure(texel, p) * texels;
     GpuVpl vpl = make_vpl(p, measure);
 #if defined(GLOSSY) && MAP_KIND != MAP_ORTHOGRAPHIC
-    widen(vpl, WIDENING * measure);
+    widen(vpl, WIDENING * measure * extent);
 #endif
     store(index, vpl, surface_area(p, measure));
 }
 #else
-uint hash(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
 // The first row whose running sum exceeds the value.
 int find_row(float value) {
     int low = 0;
@@ -225,6 +252,9 @@ void main() {
     float flux = 0.0;
     for (int i = 0; i < CHILDREN; ++i) {
         vec2 h = vec2(radical_inverse(2u, uint(i)), radical_inverse(3u, uint(i))) + 0.5 / float(CHILDREN);
+#ifdef SEEDED
+        h = fract(h + seeded_shift(2u * uint(index)));
+#endif
         float weight;
         ivec2 found = find(min((float(cell.x) + h.x) / cells.x, 1.0 - 1e-6), mix(low, high, min(h.y, 1.0 - 1e-6)), weight);
         ivec2 texel = ivec2(found.x, found.y % source_rows());
@@ -243,6 +273,9 @@ void main() {
     // where rounding would decide.
     wanted = fract(radical_inverse(2u, uint(cell.y)) + 0.31 / float(CHILDREN)) * flux;
 #endif
+#ifdef SEEDED
+    wanted = seeded_shift(2u * uint(index) + 1u).x * flux;
+#endif
     int picked = 0;
     float sum = 0.0;
     for (int i = 0; i < CHILDREN; ++i) {
@@ -250,6 +283,26 @@ void main() {
         sum += fluxes[i];
     }
     PixelLight chosen = children[picked];
+#ifdef SEEDED
+    // Picked in proportion to flux, it stands for all of it.
+    float standing = fluxes[picked] > 0.0 ? measures[picked] * (flux / fluxes[picked]) : 0.0;
+    if (!(standing > 0.0)) {
+        drawn[index] = dark_vpl();
+        return;
+    }
+    GpuVpl light_ = make_vpl(chosen, standing);
+#if defined(GLOSSY) && !defined(FROM_IRSM) && MAP_KIND != MAP_ORTHOGRAPHIC
+    widen(light_, WIDENING * standing * extent);
+#endif
+#if defined(STRIPS)
+    float standing_area = BOUNDED_SHARE * (row_at(high) - row_at(low)) * chosen.area;
+#elif defined(FROM_IRSM)
+    float standing_area = 0.0;  // passes/vpl_spacing.comp fills it in
+#else
+    float standing_area = surface_area(chosen, standing);
+#endif
+    store(index, light_, standing_area);
+#else
     // Sums over the members.
     vec3 center = vec3(0.0);
     vec3 normal = vec3(0.0);
@@ -317,5 +370,6 @@ void main() {
     area *= all;
 #endif
     store(index, vpl, area);
+#endif
 }
 #endif

@@ -14,6 +14,7 @@
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
 layout(location = 0) uniform ivec2 job;  // subset, the chunk's first light
+layout(location = 1) uniform ivec2 first_pixel;  // of a block, whose subset is the first
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 #ifdef NEAR_FIELD
 layout(binding = IMG_OUT1, r16f) uniform image2D reach_image;  // near radius of lights that are near
@@ -83,7 +84,7 @@ void main() {
     }
     barrier();
     int n = ism.gather.x;
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * n + ivec2(job.x % n, job.x / n);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * n + (ivec2(job.x % n, job.x / n) + first_pixel) % n;
     Surface s;
     float depth = read_surface_unbranched(min(pixel, frame.size.xy - 1), s);
     Receiver r = make_receiver(s, direction_to_viewer(s.position));

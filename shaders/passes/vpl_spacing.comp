@@ -8,6 +8,7 @@
 
 layout(local_size_x = GROUP_1D) in;
 layout(location = 0) uniform int stride;  // every stride-th light is looked at
+layout(location = 1) uniform float extent;  // as in passes/vpl_draw.comp
 
 layout(std430, binding = SSBO_VPLS_OUT) buffer VplOutBlock { GpuVpl spaced[]; };
 
@@ -43,5 +44,5 @@ void main() {
     for (int k = 0; k < NEIGHBOURS; ++k) {
         area = nearest[k] < 1.0 ? PI * nearest[k] / float((k + 1) * stride) : area;
     }
-    spaced[index].position.w = area;
+    spaced[index].position.w = area * extent;
 }

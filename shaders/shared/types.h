@@ -139,7 +139,7 @@ struct GpuVpl {
 struct IsmUniforms {
     ivec4 atlas;            // map size (texels), maps a row, maps, points a map
     ivec4 points;           // points in the sequence, place of its first one, reflective maps: size of
-                            // the lights' shadow maps, -
+                            // the lights' shadow maps; how many maps' points each takes its own from later on
     vec4 splat;             // squared radius of a splat over that of its point; set-back of a disk in its radii
                             // (reflective maps: area of a point where they are dense, or 0); constant bias; bias by
                             // slope, in texel widths

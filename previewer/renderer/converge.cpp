@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/converge.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/stopwatch.h"
+#include "passes/pixel_filter.h"
+#include "scene/points/sobol.h"
+
+namespace bounce {
+namespace {
+
+// Scrambles the places in the pixel; any will do, but a picture should not change by chance.
+constexpr uint32_t k_offset_seed = 0x5eed0ff5U;
+
+// The error is looked at after so many passes more than the last time, or a tenth more: reading the picture back takes
+// time that passes could use.
+constexpr double k_look_growth = 1.1;
+
+// Pixels that a pass's smoothing of shadows covers shrink as passes cover more themselves; beyond this it makes no
+// difference.
+constexpr int k_most_samples = 64;
+
+void add_times(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& times) {
+    for (const gl::PassTime& time : times) {
+        const auto same = std::find_if(sums.begin(), sums.end(),
+                                       [&](const gl::PassTime& sum) { return sum.name == time.name; });
+        if (same == sums.end()) {
+            sums.push_back(time);
+        } else {
+            same->gpu_ms += time.gpu_ms;
+            same->cpu_ms += time.cpu_ms;
+        }
+    }
+}
+
+// The picture, and the mean of its pixels' estimated errors.
+double read_picture(Renderer& renderer, int passes, Converged& out) {
+    const std::vector<glm::vec4> pixels = renderer.resolve_many();
+    const gl::TextureDesc desc = renderer.color().desc();
+    out.picture = Image(desc.width, desc.height);
+    out.faulty_pixels = 0;
+    double error = 0.0;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            out.picture.rgb[3 * i + static_cast<size_t>(c)] = pixels[i][c];
+        }
+        const double sum = double{pixels[i].r} + pixels[i].g + pixels[i].b + pixels[i].a;
+        out.faulty_pixels += std::isfinite(sum) ? 0 : 1;
+        error += pixels[i].a;
+    }
+    return passes > 1 ? error / static_cast<double>(pixels.size()) : -1.0;
+}
+
+}  // namespace
+
+VarianceBounds variance_bounds(int samples) {
+    assert(samples > 1);
+    const double freedom = samples - 1;
+    const auto quantile = [&](double normal) {
+        const double a = 2.0 / (9.0 * freedom);
+        return freedom * std::pow(std::max(1.0 - a + normal * std::sqrt(a), 0.0), 3.0);
+    };
+    constexpr double k_normal = 1.959963984540054;
+    // With one degree of freedom the approximation's low quantile is 0; the true one is 0.00098.
+    return {freedom / quantile(k_normal), freedom / std::max(quantile(-k_normal), 9.8e-4)};
+}
+
+glm::dvec2 converge_offset(int number) {
+    if (number <= 1) {
+        return {0.0, 0.0};
+    }
+    const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(number - 2), k_offset_seed);
+    return {passes::pixel_filter_quantile(u.x), passes::pixel_filter_quantile(u.y)};
+}
+
+double converge_extent(int number) {
+    return 1.0 / std::cbrt(static_cast<double>(number));
+}
+
+Converged converge(Renderer& renderer, const Moment& now, const Settings& settings,
+                   const ConvergeTarget& target, gl::TimingMode timing, const std::function<bool()>& stop) {
+    assert(settings.samples == 1);
+    const Stopwatch watch;
+    Converged out;
+    double slowest_ms = 0.0;  // of the last passes
+    int next_look = 2;
+    for (int number = 1;; ++number) {
+        const Stopwatch pass;
+        CameraView camera = now.camera;
+        camera.offset_px = converge_offset(number);
+        Settings with = settings;
+        // The first is a frame as any other, with smoothed outlines.
+        with.antialias = settings.antialias && number == 1;
+        with.samples = std::min(number, k_most_samples);
+        with.find_unlit = settings.find_unlit && number == 1;
+        FrameReport report =
+            renderer.render_one_of_many(now.pose, camera, with, timing, static_cast<uint32_t>(number),
+                                        static_cast<float>(converge_extent(number)));
+        glFinish();
+        if (number == 1) {
+            out.report = std::move(report);
+        } else {
+            add_times(out.report.passes, report.passes);
+        }
+        slowest_ms = std::max(pass.ms(), 0.7 * slowest_ms);
+        const double seconds = watch.ms() / 1000.0;
+        const bool late = target.seconds > 0.0 && seconds + slowest_ms / 1000.0 > target.seconds;
+        const bool enough = target.passes > 0 && number >= target.passes;
+        const bool stopped = stop && stop();
+        out.state.passes = number;
+        out.state.seconds = seconds;
+        const bool last = late || enough || stopped;
+        if (!last && (target.relmse <= 0.0 || number < next_look)) {
+            continue;
+        }
+        out.state.relmse = read_picture(renderer, number, out);
+        out.state.seconds = watch.ms() / 1000.0;
+        if (number > 1) {
+            const VarianceBounds bounds = variance_bounds(number);
+            out.state.relmse_low = out.state.relmse * bounds.low;
+            out.state.relmse_high = out.state.relmse * bounds.high;
+        }
+        out.history.push_back(out.state);
+        next_look = std::max(number + 1, static_cast<int>(k_look_growth * number));
+        // Few passes say too little about how they scatter.
+        constexpr int k_least_passes = 4;
+        if (target.relmse > 0.0 && number >= k_least_passes && out.state.relmse <= target.relmse) {
+            out.end = ConvergeEnd::relmse;
+            return out;
+        }
+        if (last) {
+            out.end = stopped ? ConvergeEnd::stopped : late ? ConvergeEnd::seconds : ConvergeEnd::passes;
+            return out;
+        }
+    }
+}
+
+std::string describe(const Converged& converged, const ConvergeTarget& target) {
+    const ConvergeState& state = converged.state;
+    std::string out = fmt::format("{} pass{} in {:.2f} s", state.passes, state.passes == 1 ? "" : "es", state.seconds);
+    if (state.relmse < 0.0) {
+        return out + ": one says nothing about its error";
+    }
+    out += fmt::format(", estimated relMSE {:.2e} (95 %: {:.1e} to {:.1e}), without what shadow maps of this size miss",
+                       state.relmse, state.relmse_low, state.relmse_high);
+    if (target.relmse > 0.0 && converged.end != ConvergeEnd::relmse) {
+        out += fmt::format("; the target of {:.2e} was not reached", target.relmse);
+    }
+    return out;
+}
+
+}  // namespace bounce
