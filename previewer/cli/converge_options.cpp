@@ -19,30 +19,37 @@ constexpr int k_most_passes = 1'000'000;
 void ConvergeOptions::add_to(CLI::App& command) {
     const char* group = "Convergence";
     command
-        .add_flag("--converge", converge,
-                  "The mean of passes, each with other virtual point lights, points in shadow maps and places in "
-                  "the pixel, until a target below is met; says how far the picture is from that of endless passes")
+        .add_flag(
+            "--converge", converge,
+            "The mean of passes, each with other virtual point lights, points in shadow maps and places in "
+            "the pixel, until a target below is met; says how far the picture is from that of endless passes")
         ->group(group);
     command
-        .add_option("--time-limit", seconds,
-                    "With --converge: seconds for a frame; a pass that would not end in time is not begun. 10 where "
-                    "no target is given")
+        .add_option(
+            "--time-limit", seconds,
+            "With --converge: seconds for a frame; a pass that would not end in time is not begun. 10 where "
+            "no target is given")
         ->check(CLI::PositiveNumber)
         ->group(group);
     command
-        .add_option("--target-relmse", relmse,
-                    "With --converge: enough is an estimated relMSE of this; with --time-limit whichever comes first")
+        .add_option(
+            "--target-relmse", relmse,
+            "With --converge: enough is an estimated relMSE of this; with --time-limit whichever comes first")
         ->check(CLI::PositiveNumber)
         ->group(group);
     command
-        .add_option("--passes", passes,
-                    "With --converge: this many at most; alone, the picture does not depend on the machine's speed")
+        .add_option(
+            "--passes", passes,
+            "With --converge: this many at most; alone, the picture does not depend on the machine's speed")
         ->check(CLI::Range(1, k_most_passes))
         ->group(group);
 }
 
 void ConvergeOptions::check(const Settings& settings) const {
-    const char* target = seconds ? "--time-limit" : relmse ? "--target-relmse" : passes ? "--passes" : nullptr;
+    const char* target = seconds  ? "--time-limit"
+                         : relmse ? "--target-relmse"
+                         : passes ? "--passes"
+                                  : nullptr;
     if (!converge && target != nullptr) {
         throw usage_error(fmt::format("{} is a target of --converge; give both", target));
     }
@@ -50,11 +57,13 @@ void ConvergeOptions::check(const Settings& settings) const {
         return;
     }
     if (settings.samples > 1) {
-        throw usage_error("--converge looks at other places of the pixels in every pass; give no --samples beside it");
+        throw usage_error(
+            "--converge looks at other places of the pixels in every pass; give no --samples beside it");
     }
     if (settings.show != Show::shaded && settings.show != Show::direct && settings.show != Show::indirect) {
-        throw usage_error(fmt::format("--show {} is of a single frame; --converge takes shaded, direct or indirect",
-                                      name_of(settings.show)));
+        throw usage_error(
+            fmt::format("--show {} is of a single frame; --converge takes shaded, direct or indirect",
+                        name_of(settings.show)));
     }
 }
 

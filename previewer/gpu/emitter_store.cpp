@@ -15,10 +15,10 @@ EmitterStore::EmitterStore(const scene::Scene& scene, const PointStore& points)
       peak_(scene::peak_radiance(scene, scene::default_animation(scene))) {}
 
 void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices, size_t count,
-                            std::span<const scene::EmissivePanel> panels) {
+                            std::span<const scene::EmissivePanel> panels, uint32_t seed) {
     positions_ = &vertices.positions();
     const std::vector<glm::vec3> radiance = scene::emitted_radiance(pose.materials);
-    bool resample = count != count_;
+    bool resample = count != count_ || seed != seed_;
     for (size_t i = 0; i < peak_.size(); ++i) {
         // An animation that is not the file's first, or a moment that none of those sampled was near.
         if (!(scene::emitted_luminance(peak_[i]) > 0.0) && scene::emitted_luminance(radiance[i]) > 0.0) {
@@ -45,12 +45,13 @@ void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices
         return;
     }
     if (resample) {
-        samples_ = emitters_.sample(peak_, shown, count, panels);
+        samples_ = emitters_.sample(peak_, shown, count, panels, seed);
     }
     radiance_ = radiance;
     shown_ = std::move(shown);
     taken_ = std::move(taken);
     count_ = count;
+    seed_ = seed;
     std::vector<GpuEmitterSource> sources;
     sources.reserve(samples_.size());
     power_w_ = 0.0;

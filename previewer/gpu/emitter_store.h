@@ -24,9 +24,9 @@ class EmitterStore {
 
     // count: of lights. Samples anew where it changed, or a surface appeared or went; what is emitted may
     // change without moving a light.
-    // panels: whose light something else draws.
+    // panels: whose light something else draws. seed: other samples for each.
     void set_pose(const scene::Pose& pose, const VertexStore& vertices, size_t count,
-                  std::span<const scene::EmissivePanel> panels);
+                  std::span<const scene::EmissivePanel> panels, uint32_t seed = 0);
 
     // Lights at this pose; 0 where nothing emits.
     [[nodiscard]] size_t lights() const { return samples_.size(); }
@@ -44,6 +44,7 @@ class EmitterStore {
     std::vector<bool> shown_;                 // one a surface
     std::vector<std::pair<int, int>> taken_;  // nodes and instances of the panels left out
     size_t count_ = 0;
+    uint32_t seed_ = 0;
     double power_w_ = 0.0;
     gl::Buffer sources_;
     const gl::Buffer* positions_ = nullptr;

@@ -18,13 +18,25 @@ namespace {
 // Scrambles the places in the pixel; any will do, but a picture should not change by chance.
 constexpr uint32_t k_offset_seed = 0x5eed0ff5U;
 
-// The error is looked at after so many passes more than the last time, or a tenth more: reading the picture back takes
-// time that passes could use.
+// The error is looked at after so many passes more than the last time, or a tenth more: reading the picture
+// back takes time that passes could use.
 constexpr double k_look_growth = 1.1;
 
-// Pixels that a pass's smoothing of shadows covers shrink as passes cover more themselves; beyond this it makes no
-// difference.
+// Pixels that a pass's smoothing of shadows covers shrink as passes cover more themselves; beyond this it
+// makes no difference.
 constexpr int k_most_samples = 64;
+
+// Passes from which maps are larger.
+constexpr int k_first_growth = 4;
+constexpr int k_second_growth = 16;
+constexpr int k_first_sharper_maps = 32;
+constexpr int k_second_sharper_maps = 256;
+
+// Texels a side of a reflective map at most: all are summed up in every pass.
+constexpr int k_most_rsm_texels = 1024;
+
+// On a light with a size, in each pass but the first.
+constexpr int k_places = 16;
 
 void add_times(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& times) {
     for (const gl::PassTime& time : times) {
@@ -83,25 +95,41 @@ double converge_extent(int number) {
     return 1.0 / std::cbrt(static_cast<double>(number));
 }
 
+Settings converge_settings(const Settings& asked, int number, int most_texels) {
+    Settings out = asked;
+    out.antialias = asked.antialias && number == 1;
+    out.samples = std::min(number, k_most_samples);
+    out.find_unlit = asked.find_unlit && number == 1;
+    if (number == 1) {
+        return out;
+    }
+    const int growth = number >= k_second_growth ? 4 : number >= k_first_growth ? 2 : 1;
+    out.shadow_size = std::min(asked.shadow_size * growth, std::max(most_texels, asked.shadow_size));
+    out.rsm_size =
+        std::min(asked.used_rsm_size() * growth, std::max(k_most_rsm_texels, asked.used_rsm_size()));
+    const int sharper = number >= k_second_sharper_maps ? 4 : number >= k_first_sharper_maps ? 2 : 1;
+    const int most_map = asked.draws_triangle_maps() ? 1024 : 256;
+    out.ism_size = std::min(asked.ism_size * sharper, std::max(most_map, asked.ism_size));
+    out.shadow_samples = std::min(asked.used_shadow_samples(), k_places);
+    return out;
+}
+
 Converged converge(Renderer& renderer, const Moment& now, const Settings& settings,
                    const ConvergeTarget& target, gl::TimingMode timing, const std::function<bool()>& stop) {
     assert(settings.samples == 1);
     const Stopwatch watch;
     Converged out;
+    GLint most_texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_texels);
     double slowest_ms = 0.0;  // of the last passes
     int next_look = 2;
     for (int number = 1;; ++number) {
         const Stopwatch pass;
         CameraView camera = now.camera;
         camera.offset_px = converge_offset(number);
-        Settings with = settings;
-        // The first is a frame as any other, with smoothed outlines.
-        with.antialias = settings.antialias && number == 1;
-        with.samples = std::min(number, k_most_samples);
-        with.find_unlit = settings.find_unlit && number == 1;
-        FrameReport report =
-            renderer.render_one_of_many(now.pose, camera, with, timing, static_cast<uint32_t>(number),
-                                        static_cast<float>(converge_extent(number)));
+        FrameReport report = renderer.render_one_of_many(
+            now.pose, camera, converge_settings(settings, number, most_texels), timing,
+            static_cast<uint32_t>(number), static_cast<float>(converge_extent(number)));
         glFinish();
         if (number == 1) {
             out.report = std::move(report);
@@ -143,12 +171,14 @@ Converged converge(Renderer& renderer, const Moment& now, const Settings& settin
 
 std::string describe(const Converged& converged, const ConvergeTarget& target) {
     const ConvergeState& state = converged.state;
-    std::string out = fmt::format("{} pass{} in {:.2f} s", state.passes, state.passes == 1 ? "" : "es", state.seconds);
+    std::string out =
+        fmt::format("{} pass{} in {:.2f} s", state.passes, state.passes == 1 ? "" : "es", state.seconds);
     if (state.relmse < 0.0) {
         return out + ": one says nothing about its error";
     }
-    out += fmt::format(", estimated relMSE {:.2e} (95 %: {:.1e} to {:.1e}), without what shadow maps of this size miss",
-                       state.relmse, state.relmse_low, state.relmse_high);
+    out += fmt::format(
+        ", estimated relMSE {:.2e} (95 %: {:.1e} to {:.1e}), without what shadow maps of this size miss",
+        state.relmse, state.relmse_low, state.relmse_high);
     if (target.relmse > 0.0 && converged.end != ConvergeEnd::relmse) {
         out += fmt::format("; the target of {:.2e} was not reached", target.relmse);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture of one moment that grows better for as long as it is given: the mean of many, each with other virtual
-// point lights, points in their shadow maps, parts of the lights a pixel gathers from, and places of its pixels.
+// A picture of one moment that grows better for as long as it is given: the mean of many, each with other
+// virtual point lights, points in their shadow maps, parts of the lights a pixel gathers from, and places of
+// its pixels.
 #pragma once
 
 #include <functional>
@@ -25,8 +26,9 @@ struct ConvergeTarget {
 struct ConvergeState {
     int passes = 0;
     double seconds = 0.0;
-    // Estimated relMSE (docs/metrics.md) of the mean against what endless passes would show, and within which bounds it
-    // lies with a probability of 95 %. Not in it: what shadow maps of this size miss. Negative: not known, of one pass.
+    // Estimated relMSE (docs/metrics.md) of the mean against what endless passes would show, and within which
+    // bounds it lies with a probability of 95 %. Not in it: what shadow maps of this size miss. Negative: not
+    // known, of one pass.
     double relmse = -1.0;
     double relmse_low = -1.0;
     double relmse_high = -1.0;
@@ -37,31 +39,39 @@ enum class ConvergeEnd { relmse, seconds, passes, stopped };
 struct Converged {
     ConvergeState state;
     ConvergeEnd end = ConvergeEnd::passes;
-    FrameReport report;  // of the first pass, with the passes' times of all together
-    Image picture;       // scene-linear
-    size_t faulty_pixels = 0;  // not finite
+    FrameReport report;                  // of the first pass, with the passes' times of all together
+    Image picture;                       // scene-linear
+    size_t faulty_pixels = 0;            // not finite
     std::vector<ConvergeState> history;  // where the error was looked at
 };
 
-// Factors by which an estimate of a variance from `samples` values may be off, with a probability of 95 %, low and
-// high: quantiles of chi-squared with one degree of freedom less, by Wilson and Hilferty 1931, "The Distribution of
-// Chi-Square". samples: 2 or more.
+// Factors by which an estimate of a variance from `samples` values may be off, with a probability of 95 %,
+// low and high: quantiles of chi-squared with one degree of freedom less, by Wilson and Hilferty 1931, "The
+// Distribution of Chi-Square". samples: 2 or more.
 struct VarianceBounds {
     double low = 0.0;
     double high = 0.0;
 };
 [[nodiscard]] VarianceBounds variance_bounds(int samples);
 
-// Where pass `number` (from 1) looks, in pixels from the middle: the first at the middle, the others so that all together
-// are Cycles' pixel filter (a Sobol sequence, warped).
+// Where pass `number` (from 1) looks, in pixels from the middle: the first at the middle, the others so that
+// all together are Cycles' pixel filter (a Sobol sequence, warped).
 [[nodiscard]] glm::dvec2 converge_offset(int number);
 
-// What is left in pass `number` of the surface that bounds a virtual point light's kernel: number^(-1/3). What the bounds take
-// from the mean then falls as fast as the noise that they keep out grows, so that both vanish (after Knaus and Zwicker
-// 2011, "Progressive Photon Mapping: A Probabilistic Approach").
+// What is left in pass `number` of the surface that bounds a virtual point light's kernel: number^(-1/3).
+// What the bounds take from the mean then falls as fast as the noise that they keep out grows, so that both
+// vanish (after Knaus and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach").
 [[nodiscard]] double converge_extent(int number);
 
-// Draws passes until the target is met or `stop` (called between passes) says so; at least one. Settings::samples must be
+// The settings of pass `number`, from those that were asked for. The first is drawn as a frame by itself,
+// with antialiasing. As the noise falls, what maps miss shows: maps that are drawn once (shadow maps and
+// reflective ones) grow early, those of virtual point lights, which every pass draws anew, when noise and
+// what they miss are about as large. Sizes stay within the driver's limit. Later passes need fewer places on
+// lights with a size, since each has its own.
+[[nodiscard]] Settings converge_settings(const Settings& asked, int number, int most_texels);
+
+// Draws passes until the target is met or `stop` (called between passes) says so; at least one.
+// Settings::samples must be
 // 1. Throws like Renderer::render().
 [[nodiscard]] Converged converge(Renderer& renderer, const Moment& now, const Settings& settings,
                                  const ConvergeTarget& target, gl::TimingMode timing,

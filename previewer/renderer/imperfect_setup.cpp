@@ -158,7 +158,7 @@ std::vector<gpu::GpuVpl> sun_places(const LightSetup& setup, const scene::Light&
     const glm::dvec3 across(glm::vec3(setup.gpu.tangent));
     const glm::dvec3 up(glm::vec3(setup.gpu.bitangent));
     std::vector<gpu::GpuVpl> out;
-    for (const glm::dvec3& p : light_samples(SampleShape::disk, places)) {
+    for (const glm::dvec3& p : light_samples(SampleShape::disk, places, setup.place_seed)) {
         const glm::dvec3 way = glm::normalize(axis_of(setup) + tangent * (p.x * across + p.y * up));
         const auto index = static_cast<int>(out.size());
         const glm::dvec3 x = turned_tangent(way, k_turn * index);

@@ -70,10 +70,11 @@ uint32_t reversed(uint32_t index, int bits) {
 
 }  // namespace
 
-std::vector<glm::dvec3> light_samples(SampleShape shape, int count) {
+std::vector<glm::dvec3> light_samples(SampleShape shape, int count, uint32_t seed) {
     std::vector<glm::dvec3> out;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(i), k_place_seed);
+        const glm::dvec3 u =
+            scene::sobol_point(static_cast<uint32_t>(i), scene::numbered_seed(k_place_seed, seed));
         switch (shape) {
             case SampleShape::square:
                 out.emplace_back(2.0 * glm::dvec2(u) - 1.0, 0.0);

@@ -3,6 +3,7 @@
 // Places on a light's surface that stand for the whole of it, for soft shadows. Arithmetic without OpenGL.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -21,7 +22,7 @@ enum class SampleShape {
 // `count` places of equal weight, every aligned run of 2^k of them spread evenly by itself; count is a power
 // of two. From Owen-scrambled Sobol' points; the square to the disk by Shirley and Chiu 1997, "A Low
 // Distortion Map Between Disk and Square".
-[[nodiscard]] std::vector<glm::dvec3> light_samples(SampleShape shape, int count);
+[[nodiscard]] std::vector<glm::dvec3> light_samples(SampleShape shape, int count, uint32_t seed = 0);
 
 // Where each sample looks at the receiver, so that together they average a shadow's outline over the pixel:
 // pixels from its middle, distributed as Cycles' pixel filter and independent of the places.

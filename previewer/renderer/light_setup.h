@@ -25,7 +25,8 @@ struct LightSetup {
     gpu::GpuLight gpu{};
     std::vector<LightFace> faces;
     bool casts_shadow = true;
-    double flux_w = 0.0;  // luminance-weighted, as sent out
+    double flux_w = 0.0;      // luminance-weighted, as sent out
+    uint32_t place_seed = 0;  // of the places on it that throw its soft shadow (light_samples())
 };
 
 // A light as the shaders see it. Laws of Cycles as in docs/lights.md. rsm_size and shadow_size are those of

@@ -479,7 +479,6 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     KeptMaps* const kept = in.one_of_many != nullptr ? in.one_of_many->kept : nullptr;
     if (kept != nullptr) {
         kept->hard.resize(in.lights.size());
-        kept->soft.resize(in.lights.size());
         kept->rsms.resize(in.bounce_sources.size());
     }
     const auto keep = [kept](std::vector<gl::Texture> KeptMaps::*maps, size_t at) {
@@ -504,8 +503,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
                                            [&] { return add_shadow_map(graph, context, light); });
             }
             if (!light.soft.empty()) {
-                shadows[i].soft = kept_map(graph, "soft shadow maps: " + light.name, keep(&KeptMaps::soft, i),
-                                           [&] { return add_soft_maps(graph, context, light); });
+                shadows[i].soft = add_soft_maps(graph, context, light);
             }
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }

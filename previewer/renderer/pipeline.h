@@ -35,8 +35,9 @@ struct BounceSource {
 // again; empty where they are still to be drawn. Parallel to the lights, and to the sources of bounced light.
 struct KeptMaps {
     std::vector<gl::Texture> hard;
-    std::vector<gl::Texture> soft;
     std::vector<gl::Texture> rsms;
+    int shadow_size = 0;
+    int rsm_size = 0;
 };
 
 // One of many pictures of a moment, whose mean is sought.

@@ -90,6 +90,11 @@ passes::VplSet vpl_set(const IsmLayout& layout) {
     return set;
 }
 
+// The first of many pictures is the one that a frame by itself has.
+uint32_t seed_of(const OneOfMany* one_of_many) {
+    return one_of_many != nullptr ? one_of_many->number - 1 : 0;
+}
+
 // Maps that hold all of a box from wherever they look, and half a hundredth more for what touches its
 // corners.
 DistantMaps distant_maps(const scene::Bounds& box, const gpu::RenderSpace& space) {
@@ -189,12 +194,12 @@ std::optional<scene::PanelPose> Renderer::light_panels(const scene::Pose& pose, 
 }
 
 void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
-                              const Settings& settings, FramePlan& plan) {
+                              const Settings& settings, FramePlan& plan, uint32_t seed) {
     if (!emitters_) {
         emitters_ = std::make_unique<gpu::EmitterStore>(scene_, *points_);
     }
     emitters_->set_pose(pose, gpu_scene_.vertices(), static_cast<size_t>(emitter_layout(settings, 0).vpls),
-                        panels);
+                        panels, seed);
     if (emitters_->lights() == 0) {
         plan.emitters = plan.emitters_occluded = false;
         plan.emitter_bounces = 0;
@@ -210,11 +215,12 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                                const Settings& settings, FramePlan& plan, FrameReport& report,
                                                const OneOfMany* one_of_many) {
     LitBounces out;
+    const uint32_t seed = seed_of(one_of_many);
     if (points_needed(plan, settings) && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
     }
     if (plan.emitters) {
-        place_emitters(pose, panels, settings, plan);
+        place_emitters(pose, panels, settings, plan, seed);
     }
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
@@ -303,11 +309,10 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         bounce.lights = vpl_set(layout);
         gpu::IsmUniforms uniforms = ism_uniforms(layout, of, occluders, mean_radius);
         if (one_of_many != nullptr) {
-            bounce.lights.seed = one_of_many->number;
+            bounce.lights.seed = seed;
             bounce.lights.extent = one_of_many->extent;
             // Maps take the points of others, far from their own.
-            uniforms.points.w =
-                static_cast<int>(one_of_many->number * 0x9e3779b9U % static_cast<uint32_t>(layout.vpls));
+            uniforms.points.w = static_cast<int>(seed * 0x9e3779b9U % static_cast<uint32_t>(layout.vpls));
         }
         bounce.lights.uniforms = uniforms_.add(uniforms);
         IsmLayout maps = layout;
@@ -328,7 +333,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         const DistantMaps maps = distant_maps(points_->ground(pose).rest, gpu_scene_.space());
         const std::vector<gpu::GpuVpl> made =
             environment_ ? environment_->lights(pose.world, layout, maps)
-                         : world_lights(pose.world.color * pose.world.strength, layout, maps);
+                         : world_lights(pose.world.color * pose.world.strength, layout, maps, seed);
         world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
         // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
         // are.
@@ -421,7 +426,13 @@ FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraVi
                                          float extent) {
     if (number == 1) {
         means_.count = 0;
-        for (std::vector<gl::Texture>* maps : {&kept_.hard, &kept_.soft, &kept_.rsms}) {
+    }
+    // What is kept has the sizes of before.
+    if (number == 1 || settings.used_rsm_size() != kept_.rsm_size ||
+        settings.shadow_size != kept_.shadow_size) {
+        kept_.rsm_size = settings.used_rsm_size();
+        kept_.shadow_size = settings.shadow_size;
+        for (std::vector<gl::Texture>* maps : {&kept_.hard, &kept_.rsms}) {
             for (gl::Texture& map : *maps) {
                 if (map) {
                     pool_.release(std::move(map));
@@ -541,9 +552,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     for (size_t i = 0; i < plan.lights.size(); ++i) {
         const auto index = static_cast<size_t>(plan.lights[i]);
         const scene::LightInstance& instance = pose.light_instances[index];
-        const LightSetup setup =
+        LightSetup setup =
             set_up_light(instance, pose.lights[static_cast<size_t>(instance.light)], gpu_scene_.bounds(),
                          gpu_scene_.space(), settings.used_rsm_size(), settings.shadow_size);
+        setup.place_seed = seed_of(one_of_many);
         passes::LightPass pass = light_pass(setup);
         pass.flux_w = plan.takes_light[i] ? 0.0 : setup.flux_w;
         // What suns of the world's image reflect is in the image's own reflection; panels come after them.

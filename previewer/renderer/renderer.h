@@ -123,7 +123,7 @@ class Renderer {
     std::optional<scene::PanelPose> light_panels(const scene::Pose& pose, const Settings& settings);
     // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
     void place_emitters(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
-                        const Settings& settings, FramePlan& plan);
+                        const Settings& settings, FramePlan& plan, uint32_t seed);
     // Their maps, parallel to the frame's `lights`; empty where nothing can throw a shadow. Of the points
     // that prepare_bounces() has placed, `points` each.
     std::vector<passes::ImperfectMaps> prepare_imperfect(const std::vector<Imperfect>& imperfect,

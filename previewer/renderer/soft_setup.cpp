@@ -204,7 +204,7 @@ void set_up_sun(const LightSetup& setup, double tangent, const std::vector<Regio
             slanted_view(basis, glm::dvec2(0.0), near - room, range, receivers, out.size, tangent * range));
         return;
     }
-    for (const glm::dvec3& p : light_samples(SampleShape::disk, samples)) {
+    for (const glm::dvec3& p : light_samples(SampleShape::disk, samples, setup.place_seed)) {
         out.views.push_back(
             slanted_view(basis, tangent * glm::dvec2(p), near - room, range, receivers, out.size, 0.0));
     }
@@ -243,7 +243,7 @@ void set_up_beam(const LightSetup& setup, const scene::Light& light, const std::
     const glm::dvec2 half(setup.gpu.area.x, setup.gpu.area.y);
     const Window whole{here - half, here + half};
     const std::vector<Region> lit = before(basis, middle, receivers);
-    for (const glm::dvec3& p : light_samples(SampleShape::disk, samples)) {
+    for (const glm::dvec3& p : light_samples(SampleShape::disk, samples, setup.place_seed)) {
         out.views.push_back(slanted_view(basis, tangent * glm::dvec2(p), glm::dot(middle, basis.z), range,
                                          lit, out.size, 0.0, whole));
     }
@@ -316,7 +316,7 @@ std::vector<glm::dvec3> place_offsets(const LightSetup& setup, const scene::Ligh
     const bool area = light.type == scene::LightType::area;
     const bool round = setup.gpu.map.w > 0.5F;
     const SampleShape shape = !area ? SampleShape::ball : round ? SampleShape::disk : SampleShape::square;
-    std::vector<glm::dvec3> out = light_samples(shape, samples);
+    std::vector<glm::dvec3> out = light_samples(shape, samples, setup.place_seed);
     const Basis basis = light_basis(setup);
     const double radius = std::sqrt(static_cast<double>(setup.gpu.intensity.w));
     for (glm::dvec3& p : out) {
@@ -330,7 +330,7 @@ std::vector<glm::dvec3> place_offsets(const LightSetup& setup, const scene::Ligh
 std::vector<glm::vec3> place_tints(const LightSetup& setup, const scene::Light& light, int samples) {
     const bool round = setup.gpu.map.w > 0.5F;
     const std::vector<glm::dvec3> samples_of =
-        light_samples(round ? SampleShape::disk : SampleShape::square, samples);
+        light_samples(round ? SampleShape::disk : SampleShape::square, samples, setup.place_seed);
     const std::vector<glm::dvec2> places(samples_of.begin(), samples_of.end());
     return light_tints(light.pattern, places, round);
 }

@@ -46,11 +46,12 @@ gpu::GpuVpl distant_light(const glm::dvec3& way, const glm::dvec3& tangent, int 
 }
 
 std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout& layout,
-                                      const DistantMaps& maps) {
+                                      const DistantMaps& maps, uint32_t seed) {
     std::vector<gpu::GpuVpl> lights;
+    const uint32_t scrambling = scene::numbered_seed(k_world_lights_seed, seed);
     const double solid_angle = 4.0 * std::numbers::pi / layout.vpls;
     for (int i = 0; i < layout.vpls; ++i) {
-        const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(i), k_world_lights_seed);
+        const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(i), scrambling);
         // Turned about the way by the third coordinate, so that the texels of different maps do not line up.
         const glm::dvec3 way = on_sphere(u.x, u.y);
         gpu::GpuVpl light =

@@ -32,8 +32,8 @@ constexpr uint32_t k_world_lights_seed = 0x57a125U;
 // Lights that together are a world of one radiance (rgb, W/(m^2 sr)): layout.vpls directions, each for the
 // same solid angle, 4 pi in all; every subset of them is spread evenly over the sphere. normal is the way the
 // light travels, position the middle of its map, position.w the solid angle, tangent.w the map's reach,
-// intensity the radiance times the solid angle; maps stand in the layout's atlas.
+// intensity the radiance times the solid angle; maps stand in the layout's atlas. seed: another set for each.
 [[nodiscard]] std::vector<gpu::GpuVpl> world_lights(const glm::vec3& radiance, const IsmLayout& layout,
-                                                    const DistantMaps& maps);
+                                                    const DistantMaps& maps, uint32_t seed = 0);
 
 }  // namespace bounce

@@ -138,7 +138,8 @@ std::vector<bool> Emitters::taken_by(std::span<const EmissivePanel> panels) cons
 
 std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
                                             const std::vector<bool>& shown, size_t count,
-                                            std::span<const EmissivePanel> panels) const {
+                                            std::span<const EmissivePanel> panels, uint32_t seed) const {
+    const uint32_t scrambling = numbered_seed(k_seed, seed);
     const std::vector<bool> taken = taken_by(panels);
     // Fronts of all pieces, then backs, so that either side is stratified for itself.
     std::vector<double> cumulative;
@@ -159,7 +160,7 @@ std::vector<EmitterSample> Emitters::sample(std::span<const glm::vec3> radiance,
         return out;
     }
     for (size_t i = 0; i < count; ++i) {
-        const glm::dvec3 u = sobol_point(static_cast<uint32_t>(i), k_seed);
+        const glm::dvec3 u = sobol_point(static_cast<uint32_t>(i), scrambling);
         const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), u.x * sum);
         const size_t entry = std::min(static_cast<size_t>(found - cumulative.begin()), cumulative.size() - 1);
         const Piece& piece = pieces_[entry % pieces_.size()];

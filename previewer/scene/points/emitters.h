@@ -39,10 +39,11 @@ class Emitters {
     // all surfaces; none where nothing emits. Sides send as EmittingSidesFinder says. radiance: what
     // decides the shares, one a material, without its texture, W/(m^2 sr); shown: for each of the parts'
     // surfaces. A radiance times a factor for all materials gives the same samples.
-    // panels: left out, as something else draws their light.
+    // panels: left out, as something else draws their light. seed: other samples for each.
     [[nodiscard]] std::vector<EmitterSample> sample(std::span<const glm::vec3> radiance,
                                                     const std::vector<bool>& shown, size_t count,
-                                                    std::span<const EmissivePanel> panels = {}) const;
+                                                    std::span<const EmissivePanel> panels = {},
+                                                    uint32_t seed = 0) const;
 
   private:
     // A triangle, or one of the equal parts that a textured one is cut into.

@@ -82,4 +82,16 @@ glm::dvec3 sobol_point(uint32_t index, uint32_t seed) {
     return point;
 }
 
+uint32_t numbered_seed(uint32_t seed, uint32_t number) {
+    // A bijection of 32 bits, so that no two numbers share one (Wellons 2018, "Prospecting for Hash
+    // Functions").
+    uint32_t x = number;
+    x ^= x >> 16U;
+    x *= 0x7feb352dU;
+    x ^= x >> 15U;
+    x *= 0x846ca68bU;
+    x ^= x >> 16U;
+    return seed ^ x;
+}
+
 }  // namespace bounce::scene

@@ -16,4 +16,7 @@ namespace bounce::scene {
 // "Practical Hash-based Owen Scrambling", with the hash that Vegdahl 2021 found to scramble better.
 [[nodiscard]] glm::dvec3 sobol_point(uint32_t index, uint32_t seed);
 
+// A seed of the sequence for each number, far from one another; `seed` itself for 0.
+[[nodiscard]] uint32_t numbered_seed(uint32_t seed, uint32_t number);
+
 }  // namespace bounce::scene
