@@ -19,12 +19,13 @@ std::array<glm::vec2, k_samples> sample_places() {
 }
 
 // Weights of the samples of 3 x 3 pixels, row by row; they add up to 1.
-std::array<float, 9 * k_samples> filter_weights(const std::array<glm::vec2, k_samples>& places) {
+std::array<float, 9 * k_samples> filter_weights(const std::array<glm::vec2, k_samples>& places,
+                                                const glm::vec2& offset) {
     std::array<float, 9 * k_samples> weights{};
     double sum = 0.0;
     for (size_t i = 0; i < weights.size(); ++i) {
         const auto pixel = static_cast<int>(i) / k_samples;
-        const glm::vec2 at = places[i % k_samples] + glm::vec2(pixel % 3 - 1, pixel / 3 - 1);
+        const glm::vec2 at = places[i % k_samples] + offset + glm::vec2(pixel % 3 - 1, pixel / 3 - 1);
         const double weight =
             pixel_filter(static_cast<double>(at.x)) * pixel_filter(static_cast<double>(at.y));
         weights[i] = static_cast<float>(weight);
@@ -99,7 +100,7 @@ DepthSamples add_peeled_samples(FrameGraph& graph, const PassContext& context, c
 
 TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
                             const DepthSamples& samples, TextureHandle picture, TextureHandle target,
-                            const std::string& layer) {
+                            const glm::vec2& offset, const std::string& layer) {
     TextureHandle sources;
     graph.add_pass(named("sample sources", layer), [&](PassBuilder& builder) {
         read_gbuffer(builder, gbuffer);
@@ -129,12 +130,12 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
                         "smoothed", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
         gl::Defines defines;
         if (!layer.empty()) defines["LAYER"] = "1";
-        return [context, picture, samples, sources, out, defines](const PassResources& resources) {
+        return [context, picture, samples, sources, out, offset, defines](const PassResources& resources) {
             context.programs.compute("passes/antialias.comp", defines).use();
             context.uniforms.bind(UBO_FRAME, context.frame);
             resources.texture(picture).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(sources).bind_image(IMG_SOURCES, GL_READ_ONLY);
-            const std::array<float, 9 * k_samples> weights = filter_weights(*samples.places);
+            const std::array<float, 9 * k_samples> weights = filter_weights(*samples.places, offset);
             glUniform1fv(0, static_cast<GLsizei>(weights.size()), weights.data());
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

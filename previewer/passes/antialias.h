@@ -27,11 +27,12 @@ struct DepthSamples {
 
 // Smooths the outlines of a picture that was shaded once a pixel, into `target`, an RGBA32F texture (invalid:
 // a new one): each depth sample takes the colour of that pixel nearby whose surface it lies on, and samples
-// are weighed by Cycles' own pixel filter (shaders/passes/antialias.comp). layer: of a picture of blended
+// are weighed by Cycles' own pixel filter (shaders/passes/antialias.comp). offset: where pixels look, from
+// their middles, pixels. layer: of a picture of blended
 // surfaces, radiance times alpha and alpha, its name.
 [[nodiscard]] TextureHandle add_antialias(FrameGraph& graph, const PassContext& context,
                                           const GBuffer& gbuffer, const DepthSamples& samples,
                                           TextureHandle picture, TextureHandle target,
-                                          const std::string& layer = {});
+                                          const glm::vec2& offset, const std::string& layer = {});
 
 }  // namespace bounce::passes

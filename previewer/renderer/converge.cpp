@@ -87,7 +87,12 @@ glm::dvec2 converge_offset(int number) {
     if (number <= 1) {
         return {0.0, 0.0};
     }
-    const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(number - 2), k_offset_seed);
+    if (number <= k_smoothed_passes) {
+        const glm::dvec3 u = scene::sobol_point(static_cast<uint32_t>(number - 1), k_offset_seed);
+        return 0.5 * (glm::dvec2(u) - 0.5);
+    }
+    const glm::dvec3 u =
+        scene::sobol_point(static_cast<uint32_t>(number - k_smoothed_passes - 1), k_offset_seed);
     return {passes::pixel_filter_quantile(u.x), passes::pixel_filter_quantile(u.y)};
 }
 
@@ -97,8 +102,8 @@ double converge_extent(int number) {
 
 Settings converge_settings(const Settings& asked, int number, int most_texels) {
     Settings out = asked;
-    out.antialias = asked.antialias && number == 1;
-    out.samples = std::min(number, k_most_samples);
+    out.antialias = asked.antialias && number <= k_smoothed_passes;
+    out.samples = out.antialias ? 1 : std::clamp(number, 2, k_most_samples);
     out.find_unlit = asked.find_unlit && number == 1;
     if (number == 1) {
         return out;

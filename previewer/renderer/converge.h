@@ -54,8 +54,13 @@ struct VarianceBounds {
 };
 [[nodiscard]] VarianceBounds variance_bounds(int samples);
 
-// Where pass `number` (from 1) looks, in pixels from the middle: the first at the middle, the others so that
-// all together are Cycles' pixel filter (a Sobol sequence, warped).
+// Passes that are antialiased, from the first on: each is as good at outlines as several that are not, but
+// what a surface shows within a pixel is filtered otherwise than Cycles does it.
+constexpr int k_smoothed_passes = 8;
+
+// Where pass `number` (from 1) looks, in pixels from the middle: the first at the middle, the next ones
+// around it as far as antialiasing has samples (the filter is in those), the others so that they are Cycles'
+// pixel filter. A Sobol sequence each.
 [[nodiscard]] glm::dvec2 converge_offset(int number);
 
 // What is left in pass `number` of the surface that bounds a virtual point light's kernel: number^(-1/3).

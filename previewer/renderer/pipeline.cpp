@@ -334,6 +334,10 @@ Light add_layer_light(FrameGraph& graph, const PipelineInputs& in, const Shared&
     return out;
 }
 
+glm::vec2 offset_of(const PipelineInputs& in) {
+    return in.one_of_many != nullptr ? in.one_of_many->offset : glm::vec2(0.0F);
+}
+
 // Blended surfaces over pictures of the solid ones: peeled off from the front, shaded one layer after the
 // other as those are, laid over from the back. What a layer takes is not run where no surface is in it.
 void add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shared,
@@ -366,7 +370,7 @@ void add_blended(FrameGraph& graph, const PipelineInputs& in, const Shared& shar
         inputs.layer = true;
         TextureHandle layer = add_composite(graph, in.context, inputs, {});
         if (in.plan.antialias) {
-            layer = add_antialias(graph, in.context, gbuffer, samples[i], layer, {},
+            layer = add_antialias(graph, in.context, gbuffer, samples[i], layer, {}, offset_of(in),
                                   fmt::format("layer {}", i + 1));
         }
         for (TextureHandle& picture : pictures) {
@@ -603,7 +607,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         if (!samples.depth.valid()) {
             samples = add_depth_samples(graph, context, in.camera);
         }
-        return add_antialias(graph, context, gbuffer, samples, shaded, target);
+        return add_antialias(graph, context, gbuffer, samples, shaded, target, offset_of(in));
     };
     std::vector<TextureHandle> pictures = {shade(bounced.bounced, bounced.lobes, in.target)};
     if (in.one_of_many != nullptr && bounced.sharp_bounced.valid()) {

@@ -42,8 +42,9 @@ struct KeptMaps {
 
 // One of many pictures of a moment, whose mean is sought.
 struct OneOfMany {
-    uint32_t number = 1;  // from 1; each has other lights, points and pixels' parts of the lights
-    float extent = 1.0F;  // VplSet::extent
+    uint32_t number = 1;     // from 1; each has other lights, points and pixels' parts of the lights
+    float extent = 1.0F;     // VplSet::extent
+    glm::vec2 offset{0.0F};  // CameraView::offset_px
     KeptMaps* kept = nullptr;
     passes::PictureMeans* means = nullptr;
 };

@@ -441,7 +441,11 @@ FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraVi
             maps->clear();
         }
     }
-    const OneOfMany one{.number = number, .extent = extent, .kept = &kept_, .means = &means_};
+    const OneOfMany one{.number = number,
+                        .extent = extent,
+                        .offset = glm::vec2(view.offset_px),
+                        .kept = &kept_,
+                        .means = &means_};
     return render_whole(pose, view, settings, timing, nullptr, &one);
 }
 
