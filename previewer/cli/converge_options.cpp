@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/converge_options.h"
 
+#include <cmath>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -13,6 +16,17 @@ constexpr double k_default_seconds = 10.0;
 
 // Seeds of passes are their numbers; more would take weeks.
 constexpr int k_most_passes = 1'000'000;
+
+// Not a number is not positive either.
+CLI::Validator positive() {
+    return {[](std::string& text) {
+                double value = 0.0;
+                return CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value)
+                           ? std::string()
+                           : fmt::format("{} is not a positive number", text);
+            },
+            "POSITIVE"};
+}
 
 }  // namespace
 
@@ -29,13 +43,13 @@ void ConvergeOptions::add_to(CLI::App& command) {
             "--time-limit", seconds,
             "With --converge: seconds for a frame; a pass that would not end in time is not begun. 10 where "
             "no target is given")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->group(group);
     command
         .add_option(
             "--target-relmse", relmse,
             "With --converge: enough is an estimated relMSE of this; with --time-limit whichever comes first")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->group(group);
     command
         .add_option(
@@ -55,6 +69,12 @@ void ConvergeOptions::check(const Settings& settings) const {
     }
     if (!converge) {
         return;
+    }
+    if (settings.technique == Technique::rsm) {
+        throw usage_error(
+            "--technique rsm takes the same samples in every pass, which --converge would not make better; "
+            "give direct or "
+            "ism");
     }
     if (settings.samples > 1) {
         throw usage_error(

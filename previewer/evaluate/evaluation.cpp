@@ -374,7 +374,10 @@ class Evaluator {
             const bool wanted =
                 (needs_cycles() && options_.runs.size() <= k_most_pass_runs) ||
                 std::find(shown.begin(), shown.end(), std::pair{run.name, run.label}) != shown.end();
-            if (wanted) {
+            // Passes of a mean of frames are those of its frames.
+            const bool converges = std::find(run.render_arguments.begin(), run.render_arguments.end(),
+                                             "--converge") != run.render_arguments.end();
+            if (wanted && !converges) {
                 result_.passes.push_back(measure_passes(
                     options_.bounce, gltf_, run, options_.frames.front(), options_.width, options_.height,
                     std::min(options_.repeat, k_most_pass_repeats), scratch_ / fmt::format("passes{}", i)));

@@ -43,7 +43,10 @@ std::vector<TunedSettings> budget_winners(const std::vector<Curve>& curves,
         const Curve* best_curve = nullptr;
         for (const Curve& curve : curves) {
             for (const CurvePoint& point : curve.points) {
-                const bool can_win = !point.options.empty() && std::isfinite(point.relmse) &&
+                // Seconds for a frame are no settings of one.
+                const bool converges = std::find(point.options.begin(), point.options.end(), "--converge") !=
+                                       point.options.end();
+                const bool can_win = !point.options.empty() && !converges && std::isfinite(point.relmse) &&
                                      1000.0 * point.seconds <= budget;  // NaN compares false
                 if (can_win && (best == nullptr || better(point, *best))) {
                     best = &point;

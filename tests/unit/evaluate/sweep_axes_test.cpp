@@ -56,13 +56,13 @@ TEST(SweepRuns, AnAxisIsOneCurveInOneBlock) {
     EXPECT_EQ(order, (std::vector<std::string>{"VPLs", "Map size"}));
 }
 
-TEST(SweepRuns, AllIsEveryAxisButTheGuard) {
+TEST(SweepRuns, AllIsEveryAxisButTheGuardAndConvergence) {
     size_t axes = 0;
     for (const SweepAxis& axis : sweep_axes()) {
         axes += axis.part_of_all ? 1U : 0U;
     }
     EXPECT_EQ(titles(sweep_runs({"all"}, 2)).size(), axes);
-    EXPECT_EQ(axes + 1, sweep_axes().size());
+    EXPECT_EQ(axes + 2, sweep_axes().size());
     EXPECT_EQ(titles(sweep_runs({"all"}, 1)).count("Bounces"), 0U) << "one point is no axis";
 }
 

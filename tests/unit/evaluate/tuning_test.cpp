@@ -56,6 +56,13 @@ TEST(BudgetWinners, NotANumberAndOtherEnginesNeverWin) {
     EXPECT_TRUE(budget_winners(curves, {33}).empty());
 }
 
+TEST(BudgetWinners, SecondsForAFrameAreNoSettings) {
+    CurvePoint converged = point("1 s", 0.01, 1e-9);
+    converged.options = {"--converge", "--time-limit", "1"};
+    EXPECT_EQ(labels(budget_winners({{"A", false, {point("a", 0.02, 0.1), converged}}}, {33})),
+              (std::vector<std::string>{"a"}));
+}
+
 Tuning example() {
     return {"cornell.blend",
             640,
