@@ -85,6 +85,16 @@ vec2 seeded_shift(uint number) {
 }
 #endif
 
+#ifdef SEEDED
+// Its map turned about its axis, so that texels lie elsewhere for every seed.
+void turn_map(int index, inout GpuVpl vpl) {
+    float angle = 2.0 * PI * seeded_shift(2u * uint(index) + 1u).y;
+    vec3 t = vpl.tangent.xyz * cos(angle) + vpl.bitangent.xyz * sin(angle);
+    vpl.bitangent.xyz = vpl.bitangent.xyz * cos(angle) - vpl.tangent.xyz * sin(angle);
+    vpl.tangent.xyz = t;
+}
+#endif
+
 // Puts the light into the list, with its map's place and the area and near field of what it stands for.
 void store(int index, GpuVpl vpl, float area) {
 #ifdef FROM_IRSM
@@ -93,6 +103,9 @@ void store(int index, GpuVpl vpl, float area) {
 #else
     area *= light.cone.z * extent;  // lights of the other places stand on the same surface
     float near_radius = NEAR_RADIUS * sqrt(area);
+#endif
+#ifdef SEEDED
+    turn_map(index, vpl);
 #endif
     ivec2 origin = ivec2(index % maps.z, index / maps.z) * maps.y;
     vpl.position.w = area;
