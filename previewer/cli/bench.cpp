@@ -23,8 +23,10 @@ namespace {
 
 using bench::BenchOptions;
 
-const std::map<std::string, Splat> k_splats = {
-    {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+const std::map<std::string, Splat> k_splats = {{"disks", Splat::disks},
+                                               {"compute", Splat::compute},
+                                               {"points", Splat::points},
+                                               {"tessellation", Splat::tessellation}};
 
 constexpr int k_least_vpls = 16;
 // Their maps of 256x256 fill the largest texture that drivers commonly have.
@@ -56,6 +58,7 @@ ExitCode run_bench(BenchArguments arguments) {
         std::tie(arguments.options.width, arguments.options.height) = parse_size(arguments.size);
     }
     const scene::Scene scene = bench_scene(arguments);
+    arguments.options.generated = arguments.scene.empty();
     require_writable(arguments.output / "results.json");
 
     const gl::HeadlessContext context;

@@ -83,6 +83,7 @@ struct BouncedLights {
 
 passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints& scene) {
     return {.scene = scene,
+            .tessellated = in.tessellated,
             .large_triangles = in.triangles_inside,
             .splat = in.settings.splat,
             .close = in.plan.close_maps,
@@ -126,6 +127,7 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
+    inputs.tessellated = in.soft_tessellated;
     inputs.close = in.plan.close_world;
     maps.set.atlas = add_ism(graph, in.context, inputs, maps.set).atlas;
     return maps;
@@ -230,6 +232,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
 struct FilteredLight {
     TextureHandle bounced;
     TextureHandle lobes;
+    TextureHandle unblurred;  // `bounced` before it was blurred; invalid where it was not
 };
 
 // Light of all bounces at once.
@@ -261,13 +264,30 @@ FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
     }
     const int interleave = sets.front().interleave;
     if (interleave == 1 || in.settings.show == Show::unblurred) {
-        return {bounced, light.lobes};
+        return {bounced, light.lobes, {}};
     }
     const auto blur = [&](TextureHandle of) {
         return of.valid() ? add_bounced_blur(graph, context, gbuffer, of, interleave, in.plan.narrow_lobes)
                           : of;
     };
-    return {blur(bounced), blur(light.lobes)};
+    return {blur(bounced), blur(light.lobes), bounced};
+}
+
+// The light of the frames before goes on in it, where the plan says so.
+TextureHandle add_reuse(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                        const FilteredLight& light, int interleave) {
+    if (!in.plan.temporal_reuse || !light.unblurred.valid()) {
+        return light.bounced;
+    }
+    return passes::add_temporal_reuse(graph, in.context,
+                                      {.gbuffer = gbuffer,
+                                       .camera = in.camera,
+                                       .unblurred = light.unblurred,
+                                       .bounced = light.bounced,
+                                       .interleave = interleave,
+                                       .before = in.light_before,
+                                       .next = in.kept},
+                                      in.reused_pixels);
 }
 
 // What lights a G-buffer's surfaces, as the composite takes it; invalid where there is none.
@@ -519,7 +539,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
             const FilteredLight light = add_bounced_light(graph, in, lit_surfaces, sources, lit, emitted);
-            bounced = light.bounced;
+            bounced = add_reuse(graph, in, lit_surfaces, light, in.settings.interleave);
             lobes = light.lobes;
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
