@@ -6,12 +6,26 @@
 #include <numbers>
 #include <optional>
 
+#include "gl/context.h"
+
 namespace bounce::passes {
 namespace {
 
 // Of a draw that deforms it is not known how large its triangles get: the list of their pieces has room for
 // this many times the points of all maps, and what does not fit is left out.
 constexpr double k_most_growth = 16.0;
+
+// Mesa's software drivers count what the patches of a draw are made into in 16 bits, and draw what is beyond it
+// wrongly: there a draw has no more patches than can give so many points. 0: no bound.
+constexpr GLuint k_most_points_a_draw = 65535;
+GLuint most_patches(double points_a_patch) {
+    if (!gl::is_software_driver()) {
+        return 0;
+    }
+    // A line has two points at least.
+    const double points = std::clamp(points_a_patch, 2.0, static_cast<double>(PATCH_POINTS));
+    return static_cast<GLuint>(k_most_points_a_draw / std::ceil(points));
+}
 
 // A batch some of whose triangles may have more points than a patch gives, and its part of the list of
 // pieces.
@@ -109,6 +123,7 @@ PieceList add_pieces(FrameGraph& graph, const PassContext& context, const Tessel
                                           static_cast<GLintptr>(i * sizeof(command)), sizeof(command),
                                           GL_RGBA_INTEGER, GL_UNSIGNED_INT, &command);
             }
+            resources.buffer(out.pieces).clear_to_zero();
             context.programs.compute("passes/ism_pieces.comp", cover_defines(points)).use();
             bind_triangles(context, points);
             resources.buffer(out.pieces).bind_storage(SSBO_PIECES_OUT);
@@ -167,10 +182,18 @@ void draw_triangles(const PassContext& context, const TessellatedPoints& points,
         gl::Defines defines = cover_defines(points);
         defines.merge(bind_cut_outs(context, batch));
         use_program(context, points, set, defines);
+        const GLuint triangles = batch.index_count / 3;
+        // A line may have a point too many.
+        const GLuint bound =
+            most_patches(points.patches->largest_triangle(i) * density(points, set) + 1.0 + PATCH_LINES);
+        const GLuint step = bound > 0 ? bound : triangles;
         for (const gpu::TrianglePatches::Run& run : runs) {
             glUniform4ui(2, batch.first_index, static_cast<GLuint>(batch.base_vertex), run.first, 0U);
-            glDrawArraysInstanced(GL_PATCHES, 0, static_cast<GLsizei>(batch.index_count / 3),
-                                  static_cast<GLsizei>(run.count));
+            for (GLuint first = 0; first < triangles; first += step) {
+                glDrawArraysInstanced(GL_PATCHES, static_cast<GLint>(first),
+                                      static_cast<GLsizei>(std::min(step, triangles - first)),
+                                      static_cast<GLsizei>(run.count));
+            }
         }
     }
 }
@@ -185,6 +208,14 @@ void draw_pieces(const PassContext& context, const TessellatedPoints& points, co
         defines.merge(bind_cut_outs(context, context.scene.batches()[large.batch]));
         use_program(context, points, set, defines);
         glUniform4ui(2, large.first, large.most, 0U, 0U);
+        if (const GLuint step = most_patches(PATCH_POINTS); step > 0) {
+            // All of the list's room: what is not listed gives no point.
+            for (GLuint first = 0; first < large.most; first += step) {
+                glDrawArrays(GL_PATCHES, static_cast<GLint>(large.first + first),
+                             static_cast<GLsizei>(std::min(step, large.most - first)));
+            }
+            continue;
+        }
         const auto* offset = reinterpret_cast<const void*>(  // NOLINT: OpenGL takes the offset as a pointer
             i * sizeof(gpu::GpuPieceCommand));
         glDrawArraysIndirect(GL_PATCHES, offset);

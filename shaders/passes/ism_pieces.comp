@@ -25,6 +25,6 @@ void main() {
     }
     uint first = atomicAdd(commands[list.x].draw.x, further);
     for (uint i = 0u; i < further && first + i < list.z; ++i) {
-        pieces[list.y + first + i] = GpuPatchPiece(uvec4(t.vertices, draw), uvec4(number, i + 1u, 0u, 0u));
+        pieces[list.y + first + i] = GpuPatchPiece(uvec4(t.vertices, draw), uvec4(number, i + 1u, 1u, 0u));
     }
 }

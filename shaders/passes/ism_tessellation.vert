@@ -38,8 +38,8 @@ layout(std430, binding = SSBO_PATCH_COLORS) readonly buffer ColorBlock { vec4 co
 void main() {
 #ifdef PIECES
     uint index = uint(gl_VertexID);
-    bool drawn = index < batch.x + batch.y;
     GpuPatchPiece piece = pieces[min(index, batch.x + batch.y - 1u)];
+    bool drawn = index < batch.x + batch.y && piece.number.z == 1u;
     PatchTriangle t = make_patch(piece.place.xyz, piece.place.w, piece.number.x);
     out_number = uvec4(t.draw_number, t.number, piece.number.y, drawn ? 1u : 0u);
 #else
