@@ -28,6 +28,7 @@ struct BenchOptions {
     std::optional<int> interleave;
     std::optional<Splat> splat;
     int least_triangles = 70'000;  // ism-creation
+    double most_splats = 8e6;      // ism-splats
     bool generated = false;        // no scene was given: the room was made
     bool quick = false;            // few values, small picture, one repetition
 };

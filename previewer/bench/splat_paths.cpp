@@ -92,6 +92,9 @@ std::vector<int> point_counts(const BenchInputs& inputs, int maps, BenchReport& 
     std::vector<int> out;
     for (const double splats : inputs.values<double>({10e3, 100e3, 250e3, 500e3, 1e6, 2e6, 4e6, 8e6})) {
         const auto points = static_cast<int>(splats / maps + 0.5);
+        if (splats > inputs.options.most_splats) {
+            continue;
+        }
         if (points >= 1 && points <= k_most_points_a_map) {
             out.push_back(points);
         } else {

@@ -119,6 +119,9 @@ void add_bench(CLI::App& app, Run& run) {
                      "ism-creation: triangles to split the scene's into, at least")
         ->check(CLI::Range(1, 20'000'000))
         ->capture_default_str();
+    command->add_option("--splats", options.most_splats, "ism-splats: splats in all maps together, at most")
+        ->check(CLI::Range(10'000, 8'000'000))
+        ->capture_default_str();
     command->add_flag("--quick", options.quick,
                       "Few values, 160x90 pixels, once each: to see that it works, not to measure");
     add_scene_source_options(*command, arguments->source);

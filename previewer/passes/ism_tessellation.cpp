@@ -15,8 +15,8 @@ namespace {
 // this many times the points of all maps, and what does not fit is left out.
 constexpr double k_most_growth = 16.0;
 
-// Mesa's software drivers count what the patches of a draw are made into in 16 bits, and draw what is beyond it
-// wrongly: there a draw has no more patches than can give so many points. 0: no bound.
+// Mesa's software drivers count what the patches of a draw are made into in 16 bits, and draw what is beyond
+// it wrongly: there a draw has no more patches than can give so many points. 0: no bound.
 constexpr GLuint k_most_points_a_draw = 65535;
 GLuint most_patches(double points_a_patch) {
     if (!gl::is_software_driver()) {

@@ -19,17 +19,15 @@ TextureHandle add_spread(FrameGraph& graph, const PassContext& context, const Te
     const int height = (context.height + block - 1) / block;
     TextureHandle out;
     graph.add_pass("light spread", [&](PassBuilder& builder) {
-        read_gbuffer(builder, inputs.gbuffer);
-        builder.read(inputs.gbuffer.geometric_normal);
         builder.read(inputs.unblurred);
+        builder.read(inputs.bounced);
         out =
             builder.create_texture("light spread", {.format = GL_RGBA16F, .width = width, .height = height});
         return [context, inputs, block, width, height, out](const PassResources& resources) {
             context.programs.compute("passes/light_spread.comp", {{"BLOCK", std::to_string(block)}}).use();
             context.uniforms.bind(UBO_FRAME, context.frame);
-            bind_gbuffer(resources, inputs.gbuffer);
-            resources.texture(inputs.gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
             resources.texture(inputs.unblurred).bind_image(IMG_IN, GL_READ_ONLY);
+            resources.texture(inputs.bounced).bind_image(IMG_HISTORY, GL_READ_ONLY);
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(width, height);
             finish_writes();

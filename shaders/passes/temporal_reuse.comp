@@ -33,9 +33,13 @@ const float SAME_NORMAL = 0.9;
 // Neighbours that count for less are left out.
 const float LEAST_WEIGHT = 0.01;
 // The mean of a block's pixels is off by its spread over n in the mean square where each pixel's lights are chosen anew.
-// So the frame before may differ by two of these; what differs by more is cut to that, and what differs by twice as much
-// is another light, whose mean begins again.
+// So the frame before may differ by two of these, or by one where draws moved and their shadows with them; what differs
+// by more is cut to that, and what differs by twice as much is another light, whose mean begins again.
+#ifdef MOVED
+const float SPREADS = 1.0;
+#else
 const float SPREADS = 2.0;
+#endif
 
 struct Before {
     BouncedLight light;

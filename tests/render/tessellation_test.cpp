@@ -27,9 +27,9 @@ class Tessellation : public ::testing::Test {
         s.vpls = 64;
         return s;
     }
-    // Of every map's splats, 64 maps of 64 pixels each: the share of texels that are hit, and the mean depth of
-    // these, render units. Without the rim, where rounding says which points of the light's own wall are before
-    // it.
+    // Of every map's splats, 64 maps of 64 pixels each: the share of texels that are hit, and the mean depth
+    // of these, render units. Without the rim, where rounding says which points of the light's own wall are
+    // before it.
     struct Coverage {
         double share = 0.0;
         double depth = 0.0;
@@ -94,8 +94,8 @@ class Tessellation : public ::testing::Test {
         EXPECT_THAT(made.report.executed, Contains("ism tessellation"));
         const double of_points = error(points, exact);
         EXPECT_LT(of_points, 0.5 * error(open, exact)) << "a case that tells";
-        // Stored points are stratified over all surfaces, these over each triangle: of those that have less than
-        // a point a map they are chance.
+        // Stored points are stratified over all surfaces, these over each triangle: of those that have less
+        // than a point a map they are chance.
         EXPECT_LT(error(made, exact), 1.5 * of_points);
         EXPECT_NEAR(made.mean() / points.mean(), 1.0, 0.02);
     }
@@ -148,10 +148,10 @@ TEST_F(Tessellation, DepthOfAPlaneFromALightIsTheClosedForm) {
 }
 
 TEST_F(Tessellation, HasTheCoverageOfStoredPoints) {
-    // Numbers and sizes alike: what is hit is about the same share. Each map's points have about the area of all
-    // that is to be hit, so that the share falls as they clump: 63 % were they chance, more the more evenly
-    // they lie, as stored ones do over all surfaces and made ones over each of these four triangles. One patch
-    // gives 4,160 points; without the others there would be half as much at the last number.
+    // Numbers and sizes alike: what is hit is about the same share. Each map's points have about the area of
+    // all that is to be hit, so that the share falls as they clump: 63 % were they chance, more the more
+    // evenly they lie, as stored ones do over all surfaces and made ones over each of these four triangles.
+    // One patch gives 4,160 points; without the others there would be half as much at the last number.
     scene::Scene scene = corner_scene();
     add_wall_spot(scene);
     for (const int points : {32, 1024, 8192}) {
