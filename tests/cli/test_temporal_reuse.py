@@ -30,11 +30,11 @@ def frames_of(render, tmp_path):
 
 
 def test_every_frame_says_what_it_took(frames_of, still):
-    stats, said = frames_of(still, "on", "--temporal-reuse", "on", "--frames", "10-12")
+    stats, _ = frames_of(still, "on", "--temporal-reuse", "on", "--frames", "10-12")
     assert stats["settings"]["temporal_reuse"] is True
     first, *others = [frame["temporal_reuse"] for frame in stats["frames"]]
     assert first == {"reused_share": 0, "reset": "there is no frame before it"}
-    assert "no light of the frames before is reused: there is no frame before it" in said
+    assert "no light of the frames before is reused: there is no frame before it" in stats["notes"]
     assert others == [{"reused_share": 1, "reset": None}] * 2
     assert "temporal reuse" in stats["frames"][1]["executed"]
 
@@ -59,18 +59,18 @@ def test_off_is_the_default_and_keeps_nothing(frames_of, still, tmp_path):
 def test_repetitions_and_runs_give_the_same_pictures(frames_of, tmp_path):
     """A plate glides through a room. A frame depends on those before it, and on nothing else."""
     room = gltf_scenes.write_glb(tmp_path / "room.glb", gltf_scenes.room(), gltf_scenes.room_buffer())
-    reuse = ["--temporal-reuse", "on", "--size", "64x36"]
+    reuse = ["--temporal-reuse", "on"]
     stats, _ = frames_of(room, "once", "--frames", "1-4", *reuse)
     for frame in stats["frames"][1:]:
         assert "motion" in frame["executed"]
-        assert 0.5 < frame["temporal_reuse"]["reused_share"] < 1
+        assert 0.5 < frame["temporal_reuse"]["reused_share"] <= 1
     frames_of(room, "often", "--frames", "1-4", "--repeat", "3", *reuse)
     for frame in ("0001", "0002", "0003", "0004"):
         assert (tmp_path / f"once.{frame}.exr").read_bytes() == (tmp_path / f"often.{frame}.exr").read_bytes()
     # Taken up in the middle it says that it begins anew.
-    later, said = frames_of(room, "later", "--frames", "3-4", *reuse)
+    later, _ = frames_of(room, "later", "--frames", "3-4", *reuse)
     assert later["frames"][0]["temporal_reuse"]["reset"] == "there is no frame before it"
-    assert "there is no frame before it" in said
+    assert any("there is no frame before it" in note for note in later["notes"])
 
 
 def test_a_light_that_changes_ends_it(frames_of, scene, tmp_path):
