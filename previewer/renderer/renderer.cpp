@@ -631,7 +631,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         light_before = history_->begin(gpu_scene_, pose, camera, settings, scale, uniforms_);
         report.reuse.emplace().reason = light_before.reason;
         if (!light_before.before) {
-            report.notes.push_back(
+            plan.notes.push_back(
                 fmt::format("no light of the frames before is reused: {}", light_before.reason));
         }
     } else {

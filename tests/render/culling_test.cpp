@@ -157,7 +157,6 @@ TEST_F(ExecutedPasses, SplatsOfEachKind) {
     EXPECT_EQ(with(Splat::compute, 128, PullPush::fill), (Passes{"ism squares", "ism pull-push"}));
     EXPECT_EQ(with(Splat::compute, 128, PullPush::off), (Passes{"ism squares"}));
     EXPECT_EQ(with(Splat::points, 64, PullPush::fill), (Passes{"ism points", "ism pull-push"}));
-    EXPECT_EQ(with(Splat::tessellation, 64, PullPush::fill), (Passes{"ism tessellation", "ism pull-push"}));
     EXPECT_EQ(with(Splat::disks, 64, PullPush::fill), (Passes{"ism disks"})) << "closed in the same pass";
     EXPECT_EQ(with(Splat::disks, 128, PullPush::fill), (Passes{"ism disks", "ism close"}));
     settings.drop_hull = false;

@@ -150,7 +150,7 @@ TEST_F(IsmGather, PowerScalesThePicture) {
 TEST_F(IsmGather, SameFrameSameBits) {
     scene::Scene scene = lit_corner();
     add_mesh_node(scene, add_ball(scene, add_diffuse(scene), 0.25F), moved({-1.0, 0.0, 0.75}));
-    for (const Splat splat : {Splat::disks, Splat::compute, Splat::points, Splat::tessellation}) {
+    for (const Splat splat : {Splat::disks, Splat::compute, Splat::points}) {
         Settings settings = with(4);
         settings.splat = splat;
         settings.bounces = 2;

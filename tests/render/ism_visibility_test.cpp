@@ -38,12 +38,9 @@ class IsmVisibility : public ::testing::Test {
         settings.visibility = Visibility::none;
         return settings;
     }
-    static constexpr Splat splats[] = {Splat::disks, Splat::compute, Splat::points, Splat::tessellation};
+    static constexpr Splat splats[] = {Splat::disks, Splat::compute, Splat::points};
     static const char* name(Splat splat) {
-        return splat == Splat::disks     ? "disks"
-               : splat == Splat::compute ? "compute"
-               : splat == Splat::points  ? "points"
-                                         : "tessellation";
+        return splat == Splat::disks ? "disks" : splat == Splat::compute ? "compute" : "points";
     }
 };
 
@@ -173,7 +170,7 @@ TEST_F(IsmVisibility, FillingHolesDoesNotSpreadABallOverTheRoom) {
     // Surfaces on the hull are kept where holes are filled: what lies behind the ball must not count as one.
     const scene::Scene scene = ball_scene();
     const Rendered open = draw(scene, floor_camera(), without(with(Splat::disks, 64)));
-    for (const Splat splat : {Splat::compute, Splat::points, Splat::tessellation}) {
+    for (const Splat splat : {Splat::compute, Splat::points}) {
         Settings settings = with(splat, 256);
         settings.pull_push = PullPush::fill;
         const Rendered r = draw(scene, floor_camera(), settings);
@@ -207,7 +204,7 @@ TEST_F(IsmVisibility, ASurfaceDoesNotHideItself) {
         }
     }
     // One depth a splat: a bias by the slope, and a price.
-    for (const Splat splat : {Splat::compute, Splat::points, Splat::tessellation}) {
+    for (const Splat splat : {Splat::compute, Splat::points}) {
         settings.splat = splat;
         settings.ism_size = 256;
         EXPECT_GE(draw(scene, floor_camera(), settings).mean() / open.mean(), 0.85) << name(splat);

@@ -437,7 +437,7 @@ TEST_F(ImperfectShadows, SoDoesOneOfPointsAlone) {
     // in the mean. Squares of one depth need a bias besides, by which they leak.
     const scene::Light light = sized(scene::LightType::area);
     const CameraView camera = camera_from_above(k_width, 10.0);
-    for (const Splat splat : {Splat::disks, Splat::compute, Splat::points, Splat::tessellation}) {
+    for (const Splat splat : {Splat::disks, Splat::compute, Splat::points}) {
         const std::string what = "splat " + std::to_string(static_cast<int>(splat));
         Settings s = imperfect();
         s.splat = splat;
