@@ -79,6 +79,12 @@ const std::vector<Experiment>& experiments() {
         {"ism-creation", "Making imperfect and classic shadow maps",
          "time to make 256 ISMs against 256 classic shadow maps, 70,000 triangles or more",
          measure_ism_creation},
+        {"ism-splats", "Splats of stored points and of tessellated triangles",
+         "time to splat 10,000 to 8 M points by each path on three meshes, one deforming (Table 3 of 2013)",
+         measure_splat_paths},
+        {"temporal-reuse", "Bounced light of the frames before",
+         "error, flicker and cost of --temporal-reuse while camera, object or light move",
+         measure_temporal_reuse},
         {"lv-table1", "Frames a second with maps of simplified meshes",
          "frames a second of preset lv2009 by map size and shading, and of whole meshes (Table I of 2009)",
          measure_simplified_maps},
@@ -137,6 +143,10 @@ std::string splat_name(Splat splat) {
             return "disks";
         case Splat::compute:
             return "compute";
+        case Splat::tessellation:
+            return "tessellation";
+        case Splat::automatic:
+            return "auto";
         case Splat::points:
             break;
     }

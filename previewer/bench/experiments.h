@@ -28,6 +28,8 @@ struct BenchOptions {
     std::optional<int> interleave;
     std::optional<Splat> splat;
     int least_triangles = 70'000;  // ism-creation
+    double most_splats = 8e6;      // ism-splats
+    bool generated = false;        // no scene was given: the room was made
     bool quick = false;            // few values, small picture, one repetition
 };
 
@@ -60,6 +62,8 @@ void measure_ism_error(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report);
 void measure_screen_sizes(const BenchInputs& inputs, BenchReport& report);
 void measure_ism_creation(const BenchInputs& inputs, BenchReport& report);
+void measure_splat_paths(const BenchInputs& inputs, BenchReport& report);
+void measure_temporal_reuse(const BenchInputs& inputs, BenchReport& report);
 void measure_simplified_maps(const BenchInputs& inputs, BenchReport& report);
 void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report);
 void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);

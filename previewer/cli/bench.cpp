@@ -23,8 +23,10 @@ namespace {
 
 using bench::BenchOptions;
 
-const std::map<std::string, Splat> k_splats = {
-    {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+const std::map<std::string, Splat> k_splats = {{"disks", Splat::disks},
+                                               {"compute", Splat::compute},
+                                               {"points", Splat::points},
+                                               {"tessellation", Splat::tessellation}};
 
 constexpr int k_least_vpls = 16;
 // Their maps of 256x256 fill the largest texture that drivers commonly have.
@@ -56,6 +58,7 @@ ExitCode run_bench(BenchArguments arguments) {
         std::tie(arguments.options.width, arguments.options.height) = parse_size(arguments.size);
     }
     const scene::Scene scene = bench_scene(arguments);
+    arguments.options.generated = arguments.scene.empty();
     require_writable(arguments.output / "results.json");
 
     const gl::HeadlessContext context;
@@ -115,6 +118,9 @@ void add_bench(CLI::App& app, Run& run) {
         ->add_option("--triangles", options.least_triangles,
                      "ism-creation: triangles to split the scene's into, at least")
         ->check(CLI::Range(1, 20'000'000))
+        ->capture_default_str();
+    command->add_option("--splats", options.most_splats, "ism-splats: splats in all maps together, at most")
+        ->check(CLI::Range(10'000, 8'000'000))
         ->capture_default_str();
     command->add_flag("--quick", options.quick,
                       "Few values, 160x90 pixels, once each: to see that it works, not to measure");

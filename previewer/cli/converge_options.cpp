@@ -76,6 +76,11 @@ void ConvergeOptions::check(const Settings& settings) const {
             "give direct or "
             "ism");
     }
+    if (settings.temporal_reuse) {
+        throw usage_error(
+            "--temporal-reuse takes light of the frame before, which --converge does not need; give one of "
+            "both");
+    }
     if (settings.samples > 1) {
         throw usage_error(
             "--converge looks at other places of the pixels in every pass; give no --samples beside it");

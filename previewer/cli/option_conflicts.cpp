@@ -161,7 +161,8 @@ std::string splat_conflict(const RenderOptions& o, const Settings& s) {
                      {"--pull-threshold", o.pull_threshold.has_value()},
                      {"--push-threshold", o.push_threshold.has_value()}});
     if (pull_push != nullptr && disks) {
-        return fmt::format("{} needs --splat compute or points: disks are drawn without it", pull_push);
+        return fmt::format("{} needs --splat compute, points or tessellation: disks are drawn without it",
+                           pull_push);
     }
     if (pull_push != nullptr && s.pull_push == PullPush::off) {
         return fmt::format("{} has no effect with --pull-push off", pull_push);
@@ -190,6 +191,37 @@ std::string layer_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+// Light of the frames before.
+std::string reuse_conflict(const RenderOptions& o, const Settings& s) {
+    if (!o.temporal_reuse || !*o.temporal_reuse) {
+        return {};
+    }
+    if (s.technique != Technique::ism) {
+        return fmt::format(
+            "--temporal-reuse on has no effect with technique {}; it is an option of --technique ism",
+            name_of(s.technique));
+    }
+    if (s.samples > 1) {
+        return "--temporal-reuse on cannot go with --samples, whose frames look at other places of their "
+               "pixels";
+    }
+    if (s.shading == Shading::hybrid) {
+        return "--temporal-reuse on cannot go with --shading hybrid: what simplified meshes show is not "
+               "followed";
+    }
+    if (s.interleave == 1) {
+        return "--temporal-reuse on needs --interleave 2 or more: the interleaved pixels say how far lights "
+               "may "
+               "differ";
+    }
+    if (s.show != Show::shaded && s.show != Show::indirect && s.show != Show::vpls) {
+        return fmt::format(
+            "--temporal-reuse on has no effect with --show {}, which shows one frame's own data",
+            name_of(s.show));
+    }
+    return {};
+}
+
 // Options beside several samples a pixel.
 std::string samples_conflict(const RenderOptions& o, const Settings& s) {
     if (s.samples == 1) {
@@ -209,8 +241,9 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    for (std::string conflict : {technique_conflict(o, s), shadow_conflict(o, s), emitter_conflict(o, s),
-                                 bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
+    for (std::string conflict :
+         {technique_conflict(o, s), shadow_conflict(o, s), emitter_conflict(o, s), bounce_conflict(o, s),
+          layer_conflict(o, s), samples_conflict(o, s), reuse_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

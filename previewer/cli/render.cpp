@@ -218,6 +218,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
     int written = 0;
+    int frame_before = frames.front() - 1;
     for (const int frame : frames) {
         interrupts.throw_if_interrupted(fmt::format("{} of {} frames are written", written, frames.size()));
         const double time_s = scene::time_of_frame(scene.frames, frame);
@@ -232,10 +233,15 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
             before.emplace(Moment{*pose_before, scene_camera(scene, *pose_before, arguments.render.camera,
                                                              settings.width, settings.height)});
         }
+        if (frame != frame_before + 1) {
+            renderer.forget_history();
+        }
         PictureMean picture;
         FrameStats measured =
             measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
                           frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
+        renderer.keep_history();
+        frame_before = frame;
         measured.frame = frame;
         measured.time_s = time_s;
         const Image image = measured.converged     ? std::exchange(measured.converged->picture, Image{})

@@ -117,6 +117,11 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
         "--interleave", o.interleave,
         "1, 2, 4, 8 or 16: of N x N neighbouring pixels each gathers from another part of the lights",
         std::to_string(d.interleave));
+    group.on_off(
+        "--temporal-reuse", o.temporal_reuse,
+        "Bounced light is a running mean over consecutive frames, where the frame before saw the same "
+        "surface under the same lights: a frame then depends on those before it",
+        "off");
     group.on_off("--near-field", o.near_field,
                  "Light from surfaces nearer than a virtual point light can stand for is gathered from the "
                  "reflective shadow maps");
@@ -146,7 +151,9 @@ void add_ism_options(CLI::App& command, RenderOptions& o) {
     group.one_of(
         "--splat", o.splat, setting_names<Splat>(),
         "How: oriented disks with the plane's depth at each texel; squares of one depth in a compute "
-        "shader; the same as GL_POINTS, as in the 2008 paper",
+        "shader; the same as GL_POINTS, as in the 2008 paper; the same of points that tessellation makes on "
+        "the triangles (Barak et al. 2013); or auto: compute or tessellation, by the counts of triangles "
+        "and splats",
         name_of(d.splat));
     group.on_off("--large-triangles", o.large_triangles,
                  "With disks, triangles that would take many points are drawn as triangles");
@@ -389,6 +396,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(simplify_error, out.simplify.error);
     set(map_projection, setting_names<MapProjection>(), out.map_projection);
     set(near_field, out.near_field);
+    set(temporal_reuse, out.temporal_reuse);
     set(glossy, out.glossy_bounces);
     set(visibility, setting_names<Visibility>(), out.visibility);
     set(ism_size, out.ism_size);

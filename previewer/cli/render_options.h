@@ -66,6 +66,7 @@ struct RenderOptions {
     std::optional<float> pull_threshold;
     std::optional<float> push_threshold;
 
+    std::optional<bool> temporal_reuse;
     std::optional<bool> antialias;
     std::optional<int> samples_a_pixel;  // of a still
     std::optional<int> shadow_size;

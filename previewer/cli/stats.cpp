@@ -97,6 +97,16 @@ ordered_json frame_json(const FrameStats& frame, int pixels) {
     if (frame.converged) {
         out["converged"] = converged_json(*frame.converged);
     }
+    if (frame.report.reuse) {
+        const FrameReport::Reuse& reuse = *frame.report.reuse;
+        out["temporal_reuse"] = {
+            {"reused_share", reuse.share >= 0.0 ? ordered_json(reuse.share) : ordered_json(nullptr)},
+            {"reset", reuse.reason.empty() ? ordered_json(nullptr) : ordered_json(reuse.reason)}};
+    }
+    if (frame.report.splat) {
+        out["splat"] = {{"chosen", name_of(frame.report.splat->splat)},
+                        {"reason", frame.report.splat->reason}};
+    }
     if (frame.report.removed) {
         out["removed"] = {{"indirect_mean", frame.report.removed->indirect},
                           {"removed_mean", frame.report.removed->removed},
@@ -168,6 +178,7 @@ ordered_json settings_json(const Settings& s) {
         out["bounce_source"] = s.splat_irsms ? "irsm" : "points";
     }
     out["interleave"] = s.interleave;
+    out["temporal_reuse"] = s.temporal_reuse;
     out["near_field"] = s.near_field;
     out["glossy"] = s.glossy_bounces;
     out["vpl_sampling"] = name_of(s.vpl_sampling);

@@ -36,10 +36,10 @@ struct SweepAxis {
 // The axes' names, separated by commas.
 [[nodiscard]] std::string sweep_axis_names();
 
-// The runs of the named axes (or of "all", which leaves out `converge` and `guard`) against a reference of so many bounces,
-// each axis once. The axis `bounces` compares all its points with that one reference, which has the most.
-// Throws usage_error for an unknown axis, where bounces is 0, and for the axis `bounces` by name where the
-// reference has one bounce; "all" leaves it out then.
+// The runs of the named axes (or of "all", which leaves out `converge` and `guard`) against a reference of so
+// many bounces, each axis once. The axis `bounces` compares all its points with that one reference, which has
+// the most. Throws usage_error for an unknown axis, where bounces is 0, and for the axis `bounces` by name
+// where the reference has one bounce; "all" leaves it out then.
 [[nodiscard]] std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bounces);
 
 }  // namespace bounce

@@ -102,17 +102,24 @@ bool is_software_driver() {
     return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
 }
 
+DeviceLimits current_limits() {
+    DeviceLimits limits;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits.texture_size);
+    GLint64 block = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+    limits.storage_block_bytes = block;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &limits.vertex_storage_blocks);
+    glGetIntegerv(GL_MAX_TESS_EVALUATION_SHADER_STORAGE_BLOCKS, &limits.evaluation_storage_blocks);
+    return limits;
+}
+
 DeviceInfo initialise_current_context() {
     const int version = epoxy_gl_version();
     if (!epoxy_is_desktop_gl() || version < 45) {
         throw no_opengl(fmt::format("this driver has {}.{}", version / 10, version % 10));
     }
-    DeviceInfo device{
-        gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION), is_software_driver(), {}};
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &device.limits.texture_size);
-    GLint64 block = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
-    device.limits.storage_block_bytes = block;
+    DeviceInfo device{gl_string(GL_VENDOR), gl_string(GL_RENDERER), gl_string(GL_VERSION),
+                      is_software_driver(), current_limits()};
     install_debug_output();
     // Depth 0..1 with 1 at the near plane keeps float precision far away.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

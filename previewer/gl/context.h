@@ -10,6 +10,9 @@ namespace bounce::gl {
 struct DeviceLimits {
     int texture_size = 16384;                             // texels a side
     long long storage_block_bytes = 128LL * 1024 * 1024;  // one buffer that shaders read
+    // Storage buffers that a vertex and a tessellation evaluation shader read; OpenGL promises none.
+    int vertex_storage_blocks = 8;
+    int evaluation_storage_blocks = 8;
 };
 
 struct DeviceInfo {
@@ -41,6 +44,9 @@ class HeadlessContext {
 
 // Whether the current context is one of Mesa's software drivers (DeviceInfo::software).
 [[nodiscard]] bool is_software_driver();
+
+// Of the current context.
+[[nodiscard]] DeviceLimits current_limits();
 
 // What a context must have, whoever made it (EGL here, GLFW in the viewer): OpenGL 4.5 core. Sets the
 // conventions that all passes rely on (clip depth 0..1, debug output, seamless cube maps off) and returns

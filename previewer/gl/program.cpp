@@ -69,6 +69,15 @@ const Program& ProgramCache::raster(const std::string& vertex, const std::string
     return get({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}, defines);
 }
 
+const Program& ProgramCache::tessellation(const std::string& stem, const std::string& fragment,
+                                          const Defines& defines) {
+    return get({{GL_VERTEX_SHADER, stem + ".vert"},
+                {GL_TESS_CONTROL_SHADER, stem + ".tesc"},
+                {GL_TESS_EVALUATION_SHADER, stem + ".tese"},
+                {GL_FRAGMENT_SHADER, fragment}},
+               defines);
+}
+
 const Program& ProgramCache::get(const std::vector<Stage>& stages, const Defines& defines) {
     std::string key;
     for (const Stage& stage : stages) {

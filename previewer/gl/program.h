@@ -40,6 +40,9 @@ class ProgramCache {
     const Program& compute(const std::string& path, const Defines& defines = {});
     const Program& raster(const std::string& vertex, const std::string& fragment,
                           const Defines& defines = {});
+    // Stages of `stem`.vert, .tesc and .tese, with a fragment shader.
+    const Program& tessellation(const std::string& stem, const std::string& fragment,
+                                const Defines& defines = {});
     [[nodiscard]] size_t size() const { return programs_.size(); }
     void clear() { programs_.clear(); }
 

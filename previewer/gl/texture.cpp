@@ -10,6 +10,7 @@ namespace bounce::gl {
 size_t bytes_per_texel(GLenum format) {
     switch (format) {
         case GL_R8:
+        case GL_R8UI:
             return 1;
         case GL_R16F:
         case GL_R16UI:

@@ -299,6 +299,12 @@ void GpuScene::bind_material(const DrawBatch& batch) const {
     if (batch.features.emission_texture) textures_.bind(TEX_EMISSION, material.emission_texture, true);
 }
 
+int GpuScene::base_color_uv_set(const DrawBatch& batch) const {
+    return batch.material < static_cast<int>(scene_.materials.size())
+               ? scene_.materials[at(batch.material)].base_color_texture.uv_set
+               : 0;
+}
+
 void GpuScene::draw(const DrawBatch& batch, uint32_t first, uint32_t count, Geometry geometry) {
     const bool whole = geometry == Geometry::whole;
     const uint32_t first_index = whole ? batch.first_index : batch.simplified_first_index;

@@ -109,6 +109,8 @@ class GpuScene {
     void bind_vertex_array() const { vertices_.bind_vertex_array(); }
     void bind_single(const DrawBatch& batch) const { single_draws_.bind(UBO_DRAW, batch.single); }
     void bind_material(const DrawBatch& batch) const;
+    // Which stream its base colour's texture is placed by, 0 or 1.
+    [[nodiscard]] int base_color_uv_set(const DrawBatch& batch) const;
     // Only `count` of the batch's draws, from `first` on (numbered as first_draw).
     static void draw(const DrawBatch& batch, uint32_t first, uint32_t count, Geometry geometry);
 

@@ -47,6 +47,9 @@ class PointStore {
     [[nodiscard]] double occluder_area_m2() const { return set_.occluder_area_m2; }
     [[nodiscard]] double reflector_area_m2() const { return set_.reflector_area_m2; }
     [[nodiscard]] double dense_reflector_area_m2() const { return set_.dense_reflector_area_m2; }
+    // One entry a part of parts(): whether it lies on the scene's hull at this pose; none where drop_hull is
+    // not.
+    [[nodiscard]] std::vector<bool> on_hull(const scene::Pose& pose, bool drop_hull);
     // Area of what may hide something at this pose, before any point is sampled; metres^2.
     [[nodiscard]] double occluding_area_m2(const scene::Pose& pose, bool drop_hull);
     // Of this pose; see scene/points/ground.h.
@@ -73,7 +76,6 @@ class PointStore {
     void upload_materials();
     void upload(const VertexStore& vertices);
     void find_changes(const std::vector<GpuPointSurface>& now);
-    std::vector<bool> on_hull(const scene::Pose& pose, bool drop_hull);
     [[nodiscard]] scene::Thinning thinning();
 
     const scene::Scene& scene_;

@@ -29,6 +29,8 @@ static_assert(sizeof(IsmUniforms) == 4 * k_row);
 static_assert(sizeof(GpuPointSource) == 2 * k_row);
 static_assert(sizeof(GpuEmitterSource) == 3 * k_row);
 static_assert(sizeof(GpuPointSurface) == 4 * k_row);
+static_assert(sizeof(GpuPatchPiece) == 2 * k_row);
+static_assert(sizeof(GpuPieceCommand) == k_row);
 static_assert(sizeof(DeformJob) == 3 * k_row);
 
 }  // namespace bounce::gpu

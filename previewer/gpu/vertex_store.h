@@ -55,6 +55,11 @@ class VertexStore {
     void bind_for_deform() const;
     // Three floats a vertex: model space, and of deformed vertices what the deform pass wrote.
     [[nodiscard]] const gl::Buffer& positions() const { return positions_; }
+    // Of primitives' triangles, counted from their base vertices (PrimitiveRange).
+    [[nodiscard]] const gl::Buffer& indices() const { return indices_; }
+    // Two floats a vertex, and four; empty where no primitive has any.
+    [[nodiscard]] const gl::Buffer& uvs(int set) const { return set == 0 ? uv0_ : uv1_; }
+    [[nodiscard]] const gl::Buffer& colors() const { return colors_; }
     [[nodiscard]] bool has_tangents() const { return static_cast<bool>(tangents_); }
 
   private:

@@ -2,6 +2,9 @@
 #include "passes/ism.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "passes/ism_tessellation.h"
 
 namespace bounce::passes {
 namespace {
@@ -229,14 +232,19 @@ IsmAtlas add_ism(FrameGraph& graph, const PassContext& context, const IsmInputs&
     switch (inputs.splat) {
         case Splat::compute:
             return add_squares(graph, context, inputs, set);
+        case Splat::tessellation:
         case Splat::points: {
-            const TextureHandle depth = add_gl_points(graph, context, inputs, set);
+            const TextureHandle depth = inputs.splat == Splat::points
+                                            ? add_gl_points(graph, context, inputs, set)
+                                            : add_tessellation(graph, context, inputs.tessellated, set);
             // The same pass turns depths into what the gather reads, also where no hole is to be filled.
             PullPushSettings unfilled = inputs.pull_push;
             unfilled.mode = PullPush::off;
             return {add_pull_push(graph, context, unfilled, set, depth, true),
                     add_pull_push(graph, context, inputs.pull_push, set, depth, true)};
         }
+        case Splat::automatic:
+            throw std::logic_error("how points are splatted was not chosen");
         case Splat::disks:
             break;
     }

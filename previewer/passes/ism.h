@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gpu/triangle_patches.h"
 #include "passes/point_update.h"
 #include "scene/points/point_set.h"
 
@@ -13,6 +14,11 @@ enum class Splat {
     disks,    // oriented disks with the plane's depth at each texel, compute
     compute,  // squares of one depth, compute, atomic minimum
     points,   // squares of one depth, GL_POINTS and the depth test (Ritschel et al. 2008, 3.2)
+    // The same, of points that tessellation makes on the triangles as they are drawn, so that none are stored
+    // (Barak, Bittner and Havran 2013, "Temporally Coherent Adaptive Sampling for Imperfect Shadow
+    // Maps", 5.2)
+    tessellation,
+    automatic,  // compute or tessellation, by the counts of triangles and splats (renderer/splat_choice.h)
 };
 
 // What pull-push does to a map drawn with one depth a splat.
@@ -52,8 +58,16 @@ struct VplSet {
     bool both_sides = false;  // the second half of the maps is of the hemispheres behind the first
 };
 
+// What tessellation spreads points on.
+struct TessellatedPoints {
+    gpu::TrianglePatches* patches = nullptr;
+    double area = 0.0;  // that the points of one map stand for, squared render units
+    gpu::PatchCover cover = gpu::PatchCover::all;
+};
+
 struct IsmInputs {
     ScenePoints scene;
+    TessellatedPoints tessellated;  // where splat is tessellation
     int large_triangles = 0;
     Splat splat = Splat::disks;
     bool close = true;  // disks: bare places inside surfaces (shaders/lib/ism_close.glsl)

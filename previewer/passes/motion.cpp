@@ -23,14 +23,21 @@ void add_previous_depth(FrameGraph& graph, const PassContext& context, const Vie
     });
 }
 
-void add_motion(FrameGraph& graph, const PassContext& context, const View& camera,
-                const PreviousFrame& previous, TextureHandle target) {
+namespace {
+
+// target: invalid for a new texture.
+TextureHandle add_motion_pass(FrameGraph& graph, const PassContext& context, const View& camera,
+                              const PreviousFrame& previous, TextureHandle target) {
     const TextureHandle before = graph.import_texture("previous depth", *previous.depth);
+    TextureHandle out;
     graph.add_pass("motion", [&](PassBuilder& builder) {
         builder.read(before);
         const TextureHandle depth = builder.create_texture(
             "depth", {.format = GL_DEPTH_COMPONENT32F, .width = context.width, .height = context.height});
-        const TextureHandle out = builder.write(target);
+        out = target.valid()
+                  ? builder.write(target)
+                  : builder.create_texture(
+                        "motion", {.format = GL_RGBA32F, .width = context.width, .height = context.height});
         return [context, camera, previous, before, depth, out](const PassResources& resources) {
             const gl::Framebuffer& framebuffer =
                 resources.framebuffer({{&resources.texture(out)}}, {&resources.texture(depth)});
@@ -44,6 +51,19 @@ void add_motion(FrameGraph& graph, const PassContext& context, const View& camer
             draw_scene(context, camera, DrawKind::seen_depth, "passes/motion.frag", {{"MOTION", "1"}});
         };
     });
+    return out;
+}
+
+}  // namespace
+
+void add_motion(FrameGraph& graph, const PassContext& context, const View& camera,
+                const PreviousFrame& previous, TextureHandle target) {
+    (void)add_motion_pass(graph, context, camera, previous, target);
+}
+
+TextureHandle add_motion_vectors(FrameGraph& graph, const PassContext& context, const View& camera,
+                                 const PreviousFrame& previous) {
+    return add_motion_pass(graph, context, camera, previous, {});
 }
 
 }  // namespace bounce::passes

@@ -17,6 +17,10 @@ struct PreviousFrame {
 void add_previous_depth(FrameGraph& graph, const PassContext& context, const View& camera,
                         TextureHandle depth);
 
+// add_motion() into a texture of its own (RGBA32F).
+[[nodiscard]] TextureHandle add_motion_vectors(FrameGraph& graph, const PassContext& context,
+                                               const View& camera, const PreviousFrame& previous);
+
 // For each pixel where its point of surface was in the frame before: (dx, dy, distance), defined in
 // docs/metrics.md; 0 where there is no surface.
 void add_motion(FrameGraph& graph, const PassContext& context, const View& camera,

@@ -253,6 +253,24 @@ void plan_transparency(const scene::Scene& scene, const scene::Pose& pose, const
     }
 }
 
+// lit: whether any light bounces.
+void plan_temporal_reuse(const Settings& settings, bool lit, FramePlan& plan) {
+    const bool shown =
+        settings.show == Show::shaded || settings.show == Show::indirect || settings.show == Show::vpls;
+    const char* reason = !settings.temporal_reuse                ? "it was not asked for"
+                         : settings.technique != Technique::ism  ? "technique ism alone keeps light"
+                         : !lit                                  ? "there is no bounced light"
+                         : !shown                                ? "the layer shows one frame's own data"
+                         : settings.shading != Shading::deferred ? "light is gathered on simplified meshes"
+                         : settings.interleave == 1
+                             ? "without interleaved pixels nothing says how far lights may differ"
+                             : nullptr;
+    plan.temporal_reuse = reason == nullptr;
+    if (reason != nullptr) {
+        plan.left_out.push_back({"temporal reuse", reason});
+    }
+}
+
 }  // namespace
 
 FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
@@ -322,6 +340,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
                     settings.visibility != Visibility::none;
     const bool lit = plan.vpls || plan.world_bounces > 0 || plan.emitter_bounces > 0;
     plan.hybrid = lit && settings.shading == Shading::hybrid;
+    plan_temporal_reuse(settings, lit, plan);
     plan.simplified = plan.hybrid || ((plan.occluded || plan.emitters_occluded) &&
                                       settings.visibility == Visibility::simplified);
     if (settings.simplifies() && !plan.simplified) {

@@ -115,6 +115,9 @@ gpu::IsmUniforms ism_uniforms(const IsmLayout& layout, const Settings& settings,
     if (settings.splat == Splat::disks) {
         out.splat =
             glm::vec4(glm::dvec4(density * k_disk_overlap * k_disk_overlap, k_disk_set_back, 0.0, 0.0));
+    } else if (settings.splat == Splat::tessellation) {
+        // Its points are made for a map, with the radius that they have there.
+        out.splat = glm::vec4(glm::dvec4(1.0, 0.0, k_flat_bias * mean_radius, k_slope_bias));
     } else {
         out.splat = glm::vec4(glm::dvec4(density, 0.0, k_flat_bias * mean_radius, k_slope_bias));
     }

@@ -83,6 +83,7 @@ struct BouncedLights {
 
 passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints& scene) {
     return {.scene = scene,
+            .tessellated = in.tessellated,
             .large_triangles = in.triangles_inside,
             .splat = in.settings.splat,
             .close = in.plan.close_maps,
@@ -126,6 +127,7 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
+    inputs.tessellated = in.soft_tessellated;
     inputs.close = in.plan.close_world;
     maps.set.atlas = add_ism(graph, in.context, inputs, maps.set).atlas;
     return maps;
@@ -273,6 +275,23 @@ FilteredLight add_bounced_light(FrameGraph& graph, const PipelineInputs& in, con
                           : of;
     };
     return {blur(bounced), blur(light.lobes), bounced, light.lobes};
+}
+
+// The light of the frames before goes on in it, where the plan says so.
+TextureHandle add_reuse(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                        const FilteredLight& light, int interleave) {
+    if (!in.plan.temporal_reuse || !light.sharp_bounced.valid()) {
+        return light.bounced;
+    }
+    return passes::add_temporal_reuse(graph, in.context,
+                                      {.gbuffer = gbuffer,
+                                       .camera = in.camera,
+                                       .unblurred = light.sharp_bounced,
+                                       .bounced = light.bounced,
+                                       .interleave = interleave,
+                                       .before = in.light_before,
+                                       .next = in.kept},
+                                      in.reused_pixels);
 }
 
 // What lights a G-buffer's surfaces, as the composite takes it; invalid where there is none.
@@ -557,6 +576,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         }
         if (!shows_vpl_maps(in.settings.show)) {  // without a map to show there is nothing to be seen
             bounced = add_bounced_light(graph, in, lit_surfaces, sources, lit, emitted);
+            bounced.bounced = add_reuse(graph, in, lit_surfaces, bounced, in.settings.interleave);
         }
         if (in.settings.show == Show::removed || in.removed != nullptr) {
             const TextureHandle removed = add_removed(graph, in, lit_surfaces, lit, emitted);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gpu/emitter_store.h"
@@ -11,6 +12,7 @@
 #include "passes/removed_light.h"
 #include "passes/rsm_gather.h"
 #include "passes/soft_shadow.h"
+#include "passes/temporal_reuse.h"
 #include "passes/vpl_sampling.h"
 #include "renderer/frame_plan.h"
 #include "renderer/settings.h"
@@ -67,10 +69,16 @@ struct PipelineInputs {
     passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
     gpu::EmitterStore* emitter_store = nullptr;
-    Bounce emitters;                      // where plan.emitters
-    std::vector<Bounce> emitter_bounces;  // plan.emitter_bounces of them
-    int triangles_inside = 0;             // large triangles in maps of lights within the scene
-    passes::PreviousFrame previous;       // where the plan shows motion
+    Bounce emitters;                             // where plan.emitters
+    std::vector<Bounce> emitter_bounces;         // plan.emitter_bounces of them
+    passes::TessellatedPoints tessellated;       // where the splats of lights within the scene are made so
+    passes::TessellatedPoints soft_tessellated;  // and in imperfect maps of places on lights
+    int triangles_inside = 0;                    // large triangles in maps of lights within the scene
+    passes::PreviousFrame previous;              // where the plan shows motion
+    // Where plan.temporal_reuse: what is kept for the next frame, and taken of the one before.
+    passes::KeptLight kept;
+    std::optional<passes::LightBefore> light_before;
+    passes::ReusedPixels* reused_pixels = nullptr;  // filled where it is there, for a wait
     TextureHandle target;
     const OneOfMany* one_of_many = nullptr;  // the picture is taken into its means as well
     // Filled where they are there, each for a wait.

@@ -6,6 +6,17 @@
 
 namespace bounce {
 
+gpu::MotionUniforms motion_uniforms(const CameraMatrices& camera, const Settings& settings,
+                                    const gpu::RenderSpace& space) {
+    gpu::MotionUniforms out{};
+    out.clip_from_render = glm::mat4(camera.clip_from_render);
+    out.render_from_clip = glm::mat4(camera.render_from_clip);
+    out.eye = glm::vec4(glm::vec3(camera.position), static_cast<float>(1.0 / space.scale));
+    out.forward = glm::vec4(glm::vec3(camera.forward), static_cast<float>(2.0 * camera.pixel_radius));
+    out.picture = {settings.width, settings.height, camera.perspective ? 1.0F : 0.0F, 0.0F};
+    return out;
+}
+
 void PreviousFrameSource::draw(gpu::GpuScene& scene, gl::ProgramCache& programs, TransientPool& pool,
                                gpu::UniformArena& uniforms, const Moment& before, const Settings& settings,
                                gl::PassTimer& timer, std::vector<std::string>& executed) {
@@ -26,11 +37,7 @@ void PreviousFrameSource::draw(gpu::GpuScene& scene, gl::ProgramCache& programs,
     }
     const CameraMatrices camera = camera_matrices(tighten_orthographic_depth(before.camera, scene.bounds()),
                                                   settings.width, settings.height, scene.space());
-    motion_.clip_from_render = glm::mat4(camera.clip_from_render);
-    motion_.render_from_clip = glm::mat4(camera.render_from_clip);
-    motion_.eye = glm::vec4(glm::vec3(camera.position), static_cast<float>(1.0 / scene.space().scale));
-    motion_.forward = glm::vec4(glm::vec3(camera.forward), static_cast<float>(2.0 * camera.pixel_radius));
-    motion_.picture = {settings.width, settings.height, camera.perspective ? 1.0F : 0.0F, 0.0F};
+    motion_ = motion_uniforms(camera, settings, scene.space());
 
     uniforms.clear();
     const gpu::UniformArena::Slot view =

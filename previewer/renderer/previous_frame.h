@@ -23,6 +23,10 @@ struct Moment {
     CameraView camera;
 };
 
+// Of a camera, in render space.
+[[nodiscard]] gpu::MotionUniforms motion_uniforms(const CameraMatrices& camera, const Settings& settings,
+                                                  const gpu::RenderSpace& space);
+
 // Draws the frame before, as far as the motion layer needs it: deformed vertices and depth. Nothing else
 // makes one, so that nothing else pays for a second vertex stream.
 class PreviousFrameSource {

@@ -77,6 +77,24 @@ bool points_needed(const FramePlan& plan, const Settings& settings) {
            plan.imperfect_shadows;
 }
 
+// Lights with imperfect maps, which are drawn from disks where they are suns and as the settings have it
+// where they are not.
+struct SoftLights {
+    int suns = 0;
+    int others = 0;
+};
+
+SoftLights imperfect_lights(const FramePlan& plan, const scene::Pose& pose) {
+    SoftLights out;
+    for (size_t i = 0; plan.imperfect_shadows && i < plan.lights.size(); ++i) {
+        const scene::LightInstance& instance = pose.light_instances[static_cast<size_t>(plan.lights[i])];
+        const bool sun = pose.lights[static_cast<size_t>(instance.light)].type == scene::LightType::sun;
+        out.suns += plan.soft[i] && sun ? 1 : 0;
+        out.others += plan.soft[i] && !sun ? 1 : 0;
+    }
+    return out;
+}
+
 passes::VplSet vpl_set(const IsmLayout& layout) {
     passes::VplSet set;
     set.maps = layout.vpls;
@@ -210,12 +228,32 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
     }
 }
 
+SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
+                                   int soft_lights, int soft_points) const {
+    const auto maps = [](int count) { return static_cast<size_t>(std::max(count, 0)); };
+    const size_t first = maps(ism_layout(settings, 1, 0).vpls);
+    const size_t next = maps(ism_layout(settings, 2, 0).vpls);
+    size_t inside = plan.emitters_occluded ? maps(emitter_layout(settings, 0).vpls) : 0;
+    if (plan.occluded) {
+        inside += (plan.bounces > 0 ? first : 0) +
+                  next * maps(std::max(plan.bounces - 1, 0) + plan.world_bounces + plan.emitter_bounces);
+    }
+    return choose_splat(
+        {.triangles = gpu_scene_.triangles_drawn(),
+         .splats = inside * maps(points_a_map) +
+                   maps(soft_lights) * maps(settings.used_shadow_samples()) * maps(soft_points),
+         .software = gl::is_software_driver(),
+         .can_tessellate = can_tessellate(gl::current_limits())});
+}
+
 Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                                std::span<const scene::EmissivePanel> panels,
-                                               const Settings& settings, FramePlan& plan, FrameReport& report,
+                                               const Settings& asked, FramePlan& plan, FrameReport& report,
                                                const OneOfMany* one_of_many) {
+    Settings settings = asked;
     LitBounces out;
     const uint32_t seed = seed_of(one_of_many);
+    out.splat = settings.splat;
     if (points_needed(plan, settings) && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
     }
@@ -228,6 +266,9 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     IsmLayout irsm = first;
     irsm.map_size = k_irsm_size;
     double mean_radius = 0.0;
+    double occluding_m2 = 0.0;  // of what may hide something within the scene
+    const SoftLights soft_lights = imperfect_lights(plan, pose);
+    const double scale = gpu_scene_.space().scale;
     if (needs_points) {
         // Of the animation, not of this frame: points stay the same ones while things move.
         const double hull = points_->parts().box_surface_m2;
@@ -250,12 +291,23 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                   ? settings.ism_points
                                   : automatic_points(settings.used_soft_shadow_size(), complexity);
         }
+        if (settings.splat == Splat::automatic) {
+            const bool used = soft_lights.others > 0 || plan.occluded || plan.emitters_occluded;
+            const SplatChoice choice =
+                chosen_splat(settings, plan, first.points_a_map, soft_lights.others, out.soft_points);
+            out.splat = settings.splat = choice.splat;
+            if (used) {
+                report.splat = choice;
+            }
+        }
+        const bool tessellates = settings.splat == Splat::tessellation;
+        const bool stores = plan.world_occluded || (splats && !tessellates);
+        const bool stores_soft = plan.imperfect_shadows && (!tessellates || soft_lights.suns > 0);
         const IsmLayout soft = imperfect_layout(settings, settings.used_shadow_samples(), out.soft_points);
         scene::PointCounts counts;
         counts.points_a_map = static_cast<size_t>(
             std::max(splats || !plan.imperfect_shadows ? first.points_a_map : 0, out.soft_points));
-        counts.occluders =
-            std::max(splats ? points_in_all(first) : 0, plan.imperfect_shadows ? points_in_all(soft) : 0);
+        counts.occluders = std::max(stores ? points_in_all(first) : 0, stores_soft ? points_in_all(soft) : 0);
         counts.reflectors_a_map = static_cast<size_t>(irsm.points_a_map);
         IsmLayout most = irsm;
         most.vpls = std::max({most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0,
@@ -270,9 +322,23 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                           plan.world_bounces > 0);
         out.triangles =
             static_cast<int>(drop_hull ? points_->large_triangles_inside() : points_->large_triangles());
-        mean_radius = std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * first.points_a_map)) *
-                      gpu_scene_.space().scale;
-        if (splats && points_->occluders() == 0 && out.triangles == 0) {
+        occluding_m2 = tessellates ? occluding : points_->occluder_area_m2();
+        mean_radius = std::sqrt(occluding_m2 / (std::numbers::pi * first.points_a_map)) * scale;
+        if (tessellates) {
+            patches_ = patches_ ? std::move(patches_) : std::make_unique<gpu::TrianglePatches>();
+            patches_->set_pose(pose, gpu_scene_, *points_, drop_hull);
+            out.tessellated = {patches_.get(), occluding * scale * scale,
+                               drop_hull ? gpu::PatchCover::inside : gpu::PatchCover::all};
+            out.soft_tessellated = {patches_.get(), points_->parts().area_m2() * scale * scale,
+                                    gpu::PatchCover::all};
+            if (counts.occluders == 0 && counts.reflectors == 0) {
+                plan.left_out.push_back(
+                    {"points", "tessellation makes them as they are drawn, and nothing else needs any"});
+            }
+        }
+        const bool nothing_hides =
+            tessellates ? !(occluding > 0.0) : points_->occluders() == 0 && out.triangles == 0;
+        if (splats && nothing_hides) {
             plan.occluded = plan.emitters_occluded = false;
             plan.left_out.push_back(
                 {"ism", "nothing stands between two places of the scene: all surfaces are on its hull"});
@@ -301,9 +367,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     const size_t occluders = needs_points ? points_->occluders() : 0;
     const size_t reflectors = needs_points ? points_->reflectors() : 0;
-    const double dense_area = needs_points ? points_->dense_reflector_area_m2() * gpu_scene_.space().scale *
-                                                 gpu_scene_.space().scale
-                                           : 0.0;
+    const double dense_area = needs_points ? points_->dense_reflector_area_m2() * scale * scale : 0.0;
     const auto make_bounce = [&](const IsmLayout& layout, const Settings& of) {
         Bounce bounce;
         bounce.lights = vpl_set(layout);
@@ -356,15 +420,17 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     return out;
 }
 
-std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(const std::vector<Imperfect>& imperfect,
-                                                               const std::vector<Region>& receivers,
-                                                               size_t lights, int points,
-                                                               const Settings& settings, FramePlan& plan) {
+std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
+    const std::vector<Imperfect>& imperfect, const std::vector<Region>& receivers, size_t lights, int points,
+    const Settings& settings, const passes::TessellatedPoints& tessellated, FramePlan& plan) {
     std::vector<passes::ImperfectMaps> out(lights);
     places_.clear();
     places_.resize(lights);
     for (const Imperfect& light : imperfect) {
-        if (points_->occluders() == 0 && points_->large_triangles() == 0) {
+        const bool tessellates =
+            settings.splat == Splat::tessellation && light.of.type != scene::LightType::sun;
+        if (tessellates ? !(tessellated.area > 0.0)
+                        : points_->occluders() == 0 && points_->large_triangles() == 0) {
             plan.left_out.push_back({"soft shadow: " + light.of.name, "no surface has an area"});
             continue;
         }
@@ -382,10 +448,11 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(const std::vector
         Settings of = settings;
         of.splat = made.distant ? passes::Splat::disks : settings.splat;  // as the world's
         maps.slope_bias = of.splat != passes::Splat::disks;
-        const double mean_radius =
-            std::sqrt(points_->occluder_area_m2() / (std::numbers::pi * points)) * gpu_scene_.space().scale;
+        const double scale = gpu_scene_.space().scale;
+        const double area = tessellates ? tessellated.area : points_->occluder_area_m2() * scale * scale;
+        const double mean_radius = std::sqrt(area / (std::numbers::pi * points));
         gpu::IsmUniforms uniforms = imperfect_uniforms(layout, of, points_->occluders(), mean_radius);
-        if (points_->occluders() == 0) {  // all surfaces are large triangles
+        if (!tessellates && points_->occluders() == 0) {  // all surfaces are large triangles
             maps.set.points_a_map = uniforms.atlas.w = 0;
         }
         maps.set.uniforms = uniforms_.add(uniforms);
@@ -598,8 +665,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, one_of_many);
-    const std::vector<passes::ImperfectMaps> imperfect_maps =
-        prepare_imperfect(imperfect, receivers, lights.size(), bounces.soft_points, settings, plan);
+    Settings drawn = settings;
+    drawn.splat = bounces.splat;
+    const std::vector<passes::ImperfectMaps> imperfect_maps = prepare_imperfect(
+        imperfect, receivers, lights.size(), bounces.soft_points, drawn, bounces.soft_tessellated, plan);
     std::vector<double> sent = fluxes;
     sent.push_back(plan.emitters ? emitters_->power_w() : 0.0);
     const glm::vec3 radiance = pose.world.color * pose.world.strength;
@@ -622,6 +691,19 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         image.maps = &environment_->maps(*scene_.environment, programs_);
         image.uniforms = uniforms_.add(environment_->uniforms(pose.world));
     }
+    LightHistory::Frame light_before;
+    if (plan.temporal_reuse) {
+        history_ = history_ ? std::move(history_) : std::make_unique<LightHistory>();
+        light_before = history_->begin(gpu_scene_, pose, camera, settings, scale, uniforms_);
+        report.reuse.emplace().reason = light_before.reason;
+        if (!light_before.before) {
+            plan.notes.push_back(
+                fmt::format("no light of the frames before is reused: {}", light_before.reason));
+        }
+    } else {
+        history_.reset();
+    }
+    passes::ReusedPixels reused_pixels;
     const passes::PreviousFrame previous_frame =
         plan.motion ? previous_->match(gpu_scene_, pose, previous.pose, uniforms_) : passes::PreviousFrame{};
     uniforms_.upload();
@@ -644,7 +726,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     FrameGraph graph(pool_);
     build_pipeline(
         graph, {.plan = plan,
-                .settings = settings,
+                .settings = drawn,
                 .context = {.programs = programs_,
                             .scene = gpu_scene_,
                             .uniforms = uniforms_,
@@ -666,8 +748,13 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .emitter_store = emitters_.get(),
                 .emitters = bounces.emitters,
                 .emitter_bounces = bounces.emitter_bounces,
+                .tessellated = bounces.tessellated,
+                .soft_tessellated = bounces.soft_tessellated,
                 .triangles_inside = bounces.triangles,
                 .previous = previous_frame,
+                .kept = light_before.next,
+                .light_before = light_before.before,
+                .reused_pixels = settings.count_gathered_pixels ? &reused_pixels : nullptr,
                 .target = graph.import_texture("color", color_),
                 .one_of_many = one_of_many,
                 .gathered_pixels = settings.count_gathered_pixels ? &report.gathered_pixels : nullptr,
@@ -697,9 +784,24 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     if (!anything_seen && !pose.draws.empty()) {
         report.notes.emplace_back("the camera sees no surface of the scene");
     }
+    if (report.reuse && settings.count_gathered_pixels) {
+        report.reuse->share = reused_pixels.surfaces > 0
+                                  ? static_cast<double>(reused_pixels.reused) / reused_pixels.surfaces
+                                  : 0.0;
+    }
     pool_.end_frame();
     report.passes = timer.collect();
     return report;
+}
+
+void Renderer::keep_history() {
+    if (history_) {
+        history_->keep(gpu_scene_);
+    }
+}
+
+void Renderer::forget_history() {
+    history_.reset();
 }
 
 Image Renderer::read_color() const {

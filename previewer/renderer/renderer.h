@@ -17,16 +17,19 @@
 #include "gpu/gpu_scene.h"
 #include "gpu/lobe_table.h"
 #include "gpu/point_store.h"
+#include "gpu/triangle_patches.h"
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
 #include "renderer/camera_view.h"
 #include "renderer/environment_world.h"
 #include "renderer/frame_plan.h"
+#include "renderer/light_history.h"
 #include "renderer/light_setup.h"
 #include "renderer/pipeline.h"
 #include "renderer/previous_frame.h"
 #include "renderer/receivers.h"
 #include "renderer/settings.h"
+#include "renderer/splat_choice.h"
 
 namespace bounce {
 
@@ -54,6 +57,14 @@ struct FrameReport {
     int atlas_height = 0;
     std::optional<passes::RemovedLight> removed;  // where the settings ask for it
     std::vector<std::string> notes;               // why the picture lacks what was asked for
+    // Where the plan reuses light: the share of pixels with a surface that took light of the frame before (-1
+    // where it was not counted, Settings::count_gathered_pixels), and why none could.
+    struct Reuse {
+        double share = -1.0;
+        std::string reason;
+    };
+    std::optional<Reuse> reuse;
+    std::optional<SplatChoice> splat;  // where Splat::automatic was asked for and maps are drawn
 };
 
 // Draws a scene. Needs a current context set up by gl::initialise_current_context() for its whole life.
@@ -82,6 +93,12 @@ class Renderer {
     // them: red, green, blue and error, top row first.
     [[nodiscard]] std::vector<glm::vec4> resolve_many();
 
+    // With Settings::temporal_reuse each frame takes light of the one that was drawn last before
+    // keep_history(), so that a frame drawn twice is the same twice; none after forget_history(), nor after a
+    // frame without that setting.
+    void keep_history();
+    void forget_history();
+
     // Scene-linear radiance times film exposure, RGBA32F, bottom row first; of the last frame.
     [[nodiscard]] const gl::Texture& color() const { return color_; }
     // The same on the CPU, top row first.
@@ -98,8 +115,11 @@ class Renderer {
         std::vector<Bounce> world_bounces;
         Bounce emitters;  // likewise
         std::vector<Bounce> emitter_bounces;
-        int triangles = 0;    // large ones in the maps of lights within the scene
-        int soft_points = 0;  // in each imperfect map of a place on a light
+        Splat splat = Splat::disks;                  // never automatic
+        passes::TessellatedPoints tessellated;       // where splat is tessellation
+        passes::TessellatedPoints soft_tessellated;  // the same in imperfect maps of places on lights
+        int triangles = 0;                           // large ones in the maps of lights within the scene
+        int soft_points = 0;                         // in each imperfect map of a place on a light
     };
     // A light whose soft shadow has imperfect maps: which of the frame's, and where it stands.
     struct Imperfect {
@@ -129,17 +149,23 @@ class Renderer {
     std::vector<passes::ImperfectMaps> prepare_imperfect(const std::vector<Imperfect>& imperfect,
                                                          const std::vector<Region>& receivers, size_t lights,
                                                          int points, const Settings& settings,
+                                                         const passes::TessellatedPoints& tessellated,
                                                          FramePlan& plan);
+    // Splat::automatic made one of the others, for so many points a map.
+    [[nodiscard]] SplatChoice chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
+                                           int soft_lights, int soft_points) const;
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
     gpu::GpuScene gpu_scene_;
-    std::unique_ptr<gpu::PointStore> points_;      // made when a frame first needs it
-    std::unique_ptr<gpu::EmitterStore> emitters_;  // the same
+    std::unique_ptr<gpu::PointStore> points_;        // made when a frame first needs it
+    std::unique_ptr<gpu::EmitterStore> emitters_;    // the same
+    std::unique_ptr<gpu::TrianglePatches> patches_;  // the same
     gl::ProgramCache programs_;
     TransientPool pool_;
     gpu::UniformArena uniforms_;
     std::unique_ptr<PreviousFrameSource> previous_;  // made when motion is first asked for
+    std::unique_ptr<LightHistory> history_;          // made when light is first reused, gone when it is not
     gl::Texture color_;
     passes::PictureMeans means_;
     KeptMaps kept_;

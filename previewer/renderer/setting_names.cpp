@@ -51,8 +51,11 @@ const std::map<std::string, DirectShadows>& setting_names<DirectShadows>() {
 
 template <>
 const std::map<std::string, Splat>& setting_names<Splat>() {
-    static const std::map<std::string, Splat> names = {
-        {"disks", Splat::disks}, {"compute", Splat::compute}, {"points", Splat::points}};
+    static const std::map<std::string, Splat> names = {{"disks", Splat::disks},
+                                                       {"compute", Splat::compute},
+                                                       {"points", Splat::points},
+                                                       {"tessellation", Splat::tessellation},
+                                                       {"auto", Splat::automatic}};
     return names;
 }
 

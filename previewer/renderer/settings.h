@@ -135,6 +135,9 @@ struct Settings {
     int samples = 1;
     // Blended surfaces that a pixel shows at most, from the camera on; 0: they are cut out at one half.
     int transparent_layers = 4;
+    // Bounced light of the frames before goes on where it still holds (passes/temporal_reuse.h): a frame then
+    // depends on those before.
+    bool temporal_reuse = false;
     int shadow_size = 2048;  // a cube's faces have half of it
     DirectShadows direct_shadows = DirectShadows::vpl;
     int shadow_samples = 0;     // places on a light, a power of two; 0: 64, or 256 with imperfect maps

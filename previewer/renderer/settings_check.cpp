@@ -13,6 +13,10 @@
 namespace bounce {
 namespace {
 
+// Of passes/ism_tessellation.vert: draws, positions, indices, what is left out, materials, places on
+// textures, colours.
+constexpr int k_patch_storage_blocks = 7;
+
 // The sentence where a value lies outside low to high.
 std::string out_of(const char* setting, int value, int low, int high, const char* what) {
     if (value >= low && value <= high) {
@@ -200,6 +204,12 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
                 settings.used_shadow_samples(), maps.map_size, maps.atlas_width(), limits.texture_size);
         }
     }
+    if (refusal.empty() && settings.splat == Splat::tessellation && !can_tessellate(limits)) {
+        refusal = fmt::format(
+            "--splat tessellation needs storage buffers in vertex and tessellation shaders, {} and 1; this "
+            "OpenGL driver has {} and {}: give --splat compute or disks",
+            k_patch_storage_blocks, limits.vertex_storage_blocks, limits.evaluation_storage_blocks);
+    }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;
     for (int bounce = 1; maps && refusal.empty() && bounce <= settings.bounces; ++bounce) {
         refusal = atlas_refusal(settings, bounce == 1 ? "--vpls" : "--bounce-vpls",
@@ -212,6 +222,10 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
         refusal = atlas_refusal(settings, "--emitter-vpls", emitter_layout(settings, 0), limits);
     }
     return refusal;
+}
+
+bool can_tessellate(const gl::DeviceLimits& limits) {
+    return limits.vertex_storage_blocks >= k_patch_storage_blocks && limits.evaluation_storage_blocks >= 1;
 }
 
 std::string layer_refusal(const Settings& s) {

@@ -37,6 +37,9 @@ constexpr int k_most_map_size = 16384;
 // The same for what the driver cannot hold: names the setting to lower.
 [[nodiscard]] std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& limits);
 
+// Whether the driver's stages read as many storage buffers as Splat::tessellation needs.
+[[nodiscard]] bool can_tessellate(const gl::DeviceLimits& limits);
+
 // Why the layer that the settings ask for is not there under them; empty where it is.
 [[nodiscard]] std::string layer_refusal(const Settings& settings);
 

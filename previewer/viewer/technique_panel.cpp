@@ -33,8 +33,10 @@ bool rsm_settings(Settings& settings) {
 }
 
 bool splat_settings(Settings& settings) {
-    bool changed =
-        choose("splat", std::array{"disks", "squares, compute", "squares, GL points"}, settings.splat);
+    bool changed = choose("splat",
+                          std::array{"disks", "squares, compute", "squares, GL points",
+                                     "squares, tessellation", "squares, by the counts"},
+                          settings.splat);
     changed |= choose_size("points a map", std::array{0, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768},
                            settings.ism_points);
     if (settings.splat == Splat::disks) {
@@ -57,6 +59,7 @@ bool vpl_settings(Settings& settings) {
         changed |= ImGui::SliderInt("lights a bounce", &settings.bounce_vpls, 1, k_slider_vpls, "%d", k_log);
     }
     changed |= choose_size("interleave", std::array{1, 2, 4, 8, 16}, settings.interleave);
+    changed |= ImGui::Checkbox("temporal reuse", &settings.temporal_reuse);
     changed |= ImGui::Checkbox("near field", &settings.near_field);
     changed |= ImGui::Checkbox("glossy lobes", &settings.glossy_bounces);
     changed |=

@@ -22,8 +22,7 @@ struct Splat {
 // False where nothing is to be drawn: the point's surface is hidden; it lies behind the light's tangent plane, where
 // the light sends nothing; or the light lies inside the disk's own sphere, so that the point is no place of its own
 // but part of the surface the light stands on.
-bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
-    SurfacePoint p = unpack_point(bits);
+bool see_surface_point(GpuVpl vpl, SurfacePoint p, float map_size, out Splat s) {
     s.radius2 = p.radius * p.radius * ism.splat.x;
     s.center = vpl_from_render(vpl, p.position - vpl.position.xyz);
     s.normal = vpl_from_render(vpl, p.normal);
@@ -63,6 +62,10 @@ bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
     return s.center.z > 0.0 && s.radius2 > 0.0 && apart;
 #endif
 #endif
+}
+
+bool see_point(GpuVpl vpl, uvec4 bits, float map_size, out Splat s) {
+    return see_surface_point(vpl, unpack_point(bits), map_size, s);
 }
 
 // A map's index-th point: each map takes a block of the sequence, points.w maps further on.

@@ -35,6 +35,15 @@
 #define SSBO_VPLS 6
 #define SSBO_POINTS 7
 #define SSBO_TRIANGLES 7
+#define SSBO_PATCH_DROPPED 2
+#define SSBO_PATCH_INDICES 3
+#define SSBO_PATCH_PIECES 3
+#define SSBO_PATCH_POSITIONS 4
+#define SSBO_PATCH_COLORS 5
+#define SSBO_PATCH_UVS 7
+#define SSBO_PIECES_OUT 5
+#define SSBO_PIECE_COMMANDS 6
+#define SSBO_REUSE_COUNT 3
 #define SSBO_DEFORM_JOBS 0
 #define SSBO_POSITIONS 1
 #define SSBO_NORMALS 2
@@ -66,6 +75,8 @@
 #define TEX_DEPTH_SAMPLES 8
 #define TEX_PREVIOUS_DEPTH 4
 #define TEX_PEELED_DEPTH 9
+#define TEX_HISTORY_NORMAL 8
+#define TEX_MOTION 9
 
 // Image units.
 #define IMG_OUT 0
@@ -75,6 +86,8 @@
 #define IMG_ISM 3
 #define IMG_RSM 4
 #define IMG_SOURCES 1
+#define IMG_HISTORY 3
+#define IMG_HISTORY_LENGTH 4
 
 // Vertex attributes.
 #define ATTRIB_POSITION 0
@@ -111,5 +124,13 @@
 // Tiles of such a map, and the triangles that are drawn into it at most.
 #define GROUP_MAP_TILE 16
 #define MOST_TRIANGLES 64
+// Points of one patch at most, where splats are made by tessellation: lines of points, and points a line. OpenGL promises
+// levels of 64; a line of so many segments has a point more.
+#define PATCH_LINES 64
+#define PATCH_LINE_POINTS 65
+#define PATCH_POINTS (PATCH_LINES * PATCH_LINE_POINTS)
+// PatchDropped: of a draw, all of whose triangles stay, or none.
+#define PATCH_KEEPS_ALL 0xffffffffu
+#define PATCH_KEEPS_NONE 0xfffffffeu
 
 #endif

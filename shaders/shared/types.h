@@ -167,6 +167,17 @@ struct GpuPointSurface {
     ivec4 ids;                  // material, 1 where it is drawn, -, -
 };
 
+// A part of a triangle that has more points than a patch can give; see shaders/lib/patch.glsl.
+struct GpuPatchPiece {
+    uvec4 place;            // three vertices, draw
+    uvec4 number;           // triangle of its mesh's primitive, piece from 1, -, -
+};
+
+// As glDrawArraysIndirect() reads it.
+struct GpuPieceCommand {
+    uvec4 draw;             // pieces, instances, first piece, first instance
+};
+
 struct DeformJob {
     ivec4 vertices;         // source first, destination first, count, -
     ivec4 skin;             // first influence or -1, first matrix, -, -

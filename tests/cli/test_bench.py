@@ -6,7 +6,7 @@ import re
 import browser
 import pytest
 
-EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "lv-table1", "lv-fig6",
+EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
                "lv-fig7"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
@@ -68,6 +68,47 @@ def test_creation_of_maps(bounce, tmp_path):
     for size, maker, points, ms, median, ratio in imperfect:
         assert size == 32
         assert ratio == pytest.approx(classic[3] / ms)
+
+
+def test_splats_of_each_path(bounce, tmp_path):
+    """Table 3 of the paper beside ours; ratios are of the times beside them."""
+    result = bounce("bench", "ism-splats", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    *ours, deforming, paper = report["tables"]
+    assert [int(re.search(r"(\d+) triangles", table["note"])[1]) for table in ours] == [3096, 49176]
+    for table in (*ours, deforming):
+        names = [column["name"] for column in table["columns"]]
+        rows = [dict(zip(names, row)) for row in table["rows"]]
+        assert [row["splats"] for row in rows] == [16 * 64]
+        for row in rows:
+            assert min(row["points"], row["compute"], row["disks"], row["tessellation"]) > 0
+            assert row["points over it"] == pytest.approx(row["points"] / row["tessellation"])
+            assert row["compute over it"] == pytest.approx(row["compute"] / row["tessellation"])
+    # What the paper's own table says: S is the ratio of the times beside it.
+    assert [row[0] for row in paper["rows"]][:2] == [10000, 100000] and len(paper["rows"]) == 10
+    for row in paper["rows"]:
+        for stored, made, ratio in (row[1:4], row[4:7], row[7:10], row[10:13]):
+            assert ratio == pytest.approx(stored / made, rel=0.02)
+    assert any("GTX 470" in line for line in report["paper"])
+
+
+def test_reuse_of_light(bounce, tmp_path):
+    """With the same lights and nothing moving it changes nothing; of a light that moves nothing is reused."""
+    result = bounce("bench", "temporal-reuse", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    table = json.loads((tmp_path / "out" / "results.json").read_text())["tables"][0]
+    names = [column["name"] for column in table["columns"]]
+    rows = {(row[0], row[1]): dict(zip(names, row)) for row in table["rows"]}
+    assert {moves for moves, _ in rows} == {"nothing", "the camera", "an object", "a light"}
+    for row in rows.values():
+        assert row["relMSE"] > 0 and row["over it"] == pytest.approx(row["relMSE"] / row["with reuse"])
+        assert row["reuse"] > 0 and row["frame without"] > 0
+    still = rows["nothing", "the same sequence"]
+    assert still["with reuse"] == still["relMSE"] and still["reused"] == 100 and still["FLIP with reuse"] == 0
+    light = rows["a light", "others in each frame"]
+    assert light["with reuse"] == light["relMSE"] and light["reused"] == 0
+    assert rows["nothing", "others in each frame"]["FLIP with reuse"] < rows["nothing", "others in each frame"]["FLIP a step"]
 
 
 def test_maps_of_simplified_meshes(bounce, tmp_path):

@@ -82,6 +82,7 @@ def test_what_does_not_go_together(render, scene):
     refused(render(scene, "-o", "a.exr", "--target-relmse", "0.1"), "--target-relmse", "--converge")
     refused(render(scene, "-o", "a.exr", "--converge", "--samples", "4"), "--samples", "--converge")
     refused(render(scene, "-o", "a.exr", "--converge", "--technique", "rsm"), "--technique rsm", "--converge")
+    refused(render(scene, "-o", "a.exr", "--converge", "--temporal-reuse", "on"), "--temporal-reuse", "--converge")
     for layer in ("rsm-normal", "motion", "vpls", "unblurred"):
         refused(render(scene, "-o", "a.exr", "--converge", "--show", layer), "--converge", layer)
     refused(render(scene, "-o", "a.exr", "--converge", "--measure-removed", "--stats", "s.json"), "--measure-removed", "--converge")

@@ -128,7 +128,7 @@ def test_bad_values(bounce, scene, option):
         (["--rsm-samples", "64"], ["--rsm-samples", "technique ism"]),
         (["--visibility", "none", "--points", "64"], ["--points", "--visibility none"]),
         (["--visibility", "shadow-maps", "--splat", "points"], ["--splat", "--visibility shadow-maps"]),
-        (["--pull-push", "fill"], ["--pull-push", "--splat compute or points"]),
+        (["--pull-push", "fill"], ["--pull-push", "--splat compute, points or tessellation"]),
         (["--preset", "ism2008", "--technique", "rsm"], ["--preset ism2008", "--technique"]),
         (["--preset", "rsm2005", "--vpls", "64"], ["--vpls", "technique rsm"]),
         (["--preset", "lv2009", "--points", "64"], ["--points", "--visibility simplified"]),

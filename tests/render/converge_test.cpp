@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures that are the mean of many passes: they begin with the frame, tend to the full sum, and know how far they are.
+// Pictures that are the mean of many passes: they begin with the frame, tend to the full sum, and know how
+// far they are.
 #include "renderer/converge.h"
 
 #include "ism_fixture.h"
@@ -43,8 +44,8 @@ class ConvergeRender : public ::testing::Test {
 
     static Converged passes(const scene::Scene& scene, const Settings& settings, int count) {
         Renderer renderer(scene);
-        return converge(renderer, {scene::evaluate_pose(scene, 0.0), floor_camera()}, settings, {.passes = count},
-                        gl::TimingMode::off, nullptr);
+        return converge(renderer, {scene::evaluate_pose(scene, 0.0), floor_camera()}, settings,
+                        {.passes = count}, gl::TimingMode::off, nullptr);
     }
 
     // The mean of `count` frames by the same pixel filter.
@@ -52,8 +53,8 @@ class ConvergeRender : public ::testing::Test {
         Renderer renderer(scene);
         PictureMean picture;
         settings.samples = count;
-        render_samples(renderer, {scene::evaluate_pose(scene, 0.0), floor_camera()}, settings, gl::TimingMode::off,
-                       picture);
+        render_samples(renderer, {scene::evaluate_pose(scene, 0.0), floor_camera()}, settings,
+                       gl::TimingMode::off, picture);
         return picture.mean();
     }
 
@@ -92,8 +93,8 @@ TEST_F(ConvergeRender, TendsToTheFullSum) {
     const double error = relmse(more.picture, full);
     EXPECT_NEAR(mean(more.picture), mean(full), 0.01 * mean(full));
     EXPECT_LT(error, 0.3 * relmse(few.picture, full));
-    // Four lights a pixel and pass leave 1.2e-3 of noise, by the pass' own estimate; the rest are outlines, which eight frames
-    // of the full sum have steps in.
+    // Four lights a pixel and pass leave 1.2e-3 of noise, by the pass' own estimate; the rest are outlines,
+    // which eight frames of the full sum have steps in.
     EXPECT_LT(error, 4e-3);
 }
 
@@ -105,8 +106,8 @@ TEST_F(ConvergeRender, KnowsHowFarItIs) {
     const double error = relmse(far.picture, end.picture);
     ASSERT_GT(far.state.relmse, 0.0);
     EXPECT_LT(end.state.relmse, far.state.relmse);
-    // Within its own bounds, but for what the sizes of maps change in between and that passes repel one another, which the
-    // estimate does not know of: it may be some times too large.
+    // Within its own bounds, but for what the sizes of maps change in between and that passes repel one
+    // another, which the estimate does not know of: it may be some times too large.
     EXPECT_GT(error, 0.1 * far.state.relmse_low);
     EXPECT_LT(error, 1.5 * far.state.relmse_high);
 }
@@ -130,7 +131,8 @@ TEST_F(ConvergeRender, EndsWhereItShould) {
     const Converged stopped = run({.passes = 50}, [&] { return ++asked == 3; });
     EXPECT_EQ(stopped.end, ConvergeEnd::stopped);
     EXPECT_EQ(stopped.state.passes, 3);
-    EXPECT_EQ(stopped.picture.rgb, run({.passes = 3}, nullptr).picture.rgb) << "nothing is left of runs before";
+    EXPECT_EQ(stopped.picture.rgb, run({.passes = 3}, nullptr).picture.rgb)
+        << "nothing is left of runs before";
 }
 
 TEST_F(ConvergeRender, SoftShadowsHaveFreshPlaces) {

@@ -76,7 +76,7 @@ TEST(OptionConflicts, ImperfectShadowsAreSplattedInAnyTechnique) {
     EXPECT_THAT(conflict(size, s), HasSubstr("virtual point lights"))
         << "--soft-shadow-size is that of a place's";
     s.pull_push = PullPush::fill;
-    EXPECT_THAT(conflict(fill, s), HasSubstr("needs --splat compute or points"));
+    EXPECT_THAT(conflict(fill, s), HasSubstr("needs --splat compute, points or tessellation"));
     s = {.visibility = Visibility::none, .direct_shadows = DirectShadows::ism};
     EXPECT_EQ(conflict(points, s), "");
     EXPECT_THAT(conflict(size, s), HasSubstr("--visibility none"));
@@ -134,7 +134,7 @@ TEST(OptionConflicts, PullPushNeedsHoles) {
     const Settings squares{.splat = Splat::compute, .pull_push = PullPush::fill};
     const auto fill = [](RenderOptions& o) { o.pull_push = "fill"; };
     const auto push = [](RenderOptions& o) { o.push_threshold = 0.1F; };
-    EXPECT_THAT(conflict(fill, disks), HasSubstr("--splat compute or points"));
+    EXPECT_THAT(conflict(fill, disks), HasSubstr("--splat compute, points or tessellation"));
     EXPECT_EQ(conflict(fill, squares), "");
     EXPECT_EQ(conflict([](RenderOptions& o) { o.pull_push = "off"; },
                        {.splat = Splat::disks, .pull_push = PullPush::off}),

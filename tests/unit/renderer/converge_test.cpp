@@ -15,9 +15,11 @@ TEST(Converge, BoundsOfAVarianceAreThoseOfChiSquared) {
         double low;
         double high;
     };
-    for (const Row& row : {Row{3, 0.2158, 9.3484}, Row{9, 2.7004, 19.0228}, Row{29, 16.0471, 45.7223}, Row{99, 73.361, 128.422}}) {
+    for (const Row& row : {Row{3, 0.2158, 9.3484}, Row{9, 2.7004, 19.0228}, Row{29, 16.0471, 45.7223},
+                           Row{99, 73.361, 128.422}}) {
         const VarianceBounds bounds = variance_bounds(row.freedom + 1);
-        // Wilson and Hilferty's approximation is off by a tenth at 3 degrees of freedom and by a thousandth at 29.
+        // Wilson and Hilferty's approximation is off by a tenth at 3 degrees of freedom and by a thousandth
+        // at 29.
         const double tolerance = row.freedom < 9 ? 0.2 : 0.02;
         EXPECT_NEAR(bounds.low, row.freedom / row.high, tolerance * row.freedom / row.high) << row.freedom;
         EXPECT_NEAR(bounds.high, row.freedom / row.low, tolerance * row.freedom / row.low) << row.freedom;
@@ -47,7 +49,8 @@ TEST(Converge, PassesLookByThePixelFilter) {
         mean += at / static_cast<double>(count);
         squares += at * at / static_cast<double>(count);
     }
-    // Scrambled Sobol points: errors fall with the count; 256 random ones would be off by 0.03 and by 0.08 of the variance.
+    // Scrambled Sobol points: errors fall with the count; 256 random ones would be off by 0.03 and by 0.08 of
+    // the variance.
     for (int axis = 0; axis < 2; ++axis) {
         EXPECT_NEAR(mean[axis], 0.0, 0.01);
         EXPECT_NEAR(squares[axis], variance, 0.02 * variance);
