@@ -5,6 +5,7 @@
 
 #include "gpu/emitter_store.h"
 #include "gpu/point_store.h"
+#include "passes/avg_trace.h"
 #include "passes/motion.h"
 #include "passes/pass_context.h"
 #include "passes/removed_light.h"
@@ -23,11 +24,18 @@ struct Bounce {
 };
 
 // What bounced light starts from: a light, or a place on it.
-struct BounceSource {
+struct BounceStart {
     size_t light = 0;  // in PipelineInputs::lights
     passes::LightPass pass;
     gpu::UniformArena::Slot gather_frame;  // FrameUniforms with its sample count
     const gl::Buffer* pattern = nullptr;
+};
+
+// The approximate visibility grid, yet to be filled, and what is traced through it.
+struct AvgInputs {
+    passes::AvgGrid grid;
+    const gl::Buffer* numbers = nullptr;
+    const gl::Buffer* rays = nullptr;  // where plan.traced
 };
 
 struct PipelineInputs {
@@ -40,7 +48,7 @@ struct PipelineInputs {
     // none.
     std::vector<passes::ImperfectMaps> imperfect;
     std::vector<gl::Buffer>* places = nullptr;
-    std::vector<BounceSource> bounce_sources;  // in their order, one of each at least
+    std::vector<BounceStart> bounce_sources;  // in their order, one of each at least
     gpu::PointStore* points = nullptr;         // where the plan needs them
     std::vector<Bounce> bounces;               // plan.bounces of them
     Bounce world;                              // where plan.world_occluded; its lights' buffer:
@@ -50,6 +58,7 @@ struct PipelineInputs {
     gpu::EmitterStore* emitter_store = nullptr;
     Bounce emitters;                      // where plan.emitters
     std::vector<Bounce> emitter_bounces;  // plan.emitter_bounces of them
+    AvgInputs avg;                        // where plan.avg
     int triangles_inside = 0;             // large triangles in maps of lights within the scene
     passes::PreviousFrame previous;       // where the plan shows motion
     TextureHandle target;

@@ -71,7 +71,8 @@ std::string ism_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--vpls", s.vpls, 1, k_most_vpls, "give a number"),
           out_of("--bounces", s.bounces, 1, k_most_bounces, "give a number"),
-          out_of("--bounce-vpls", s.bounce_vpls, 1, k_most_vpls, "give a number")}) {
+          out_of("--bounce-vpls", s.bounce_vpls, 1, k_most_vpls, "give a number"),
+          out_of("--avg-size", s.avg_size, k_least_avg_size, k_most_avg_size, "give a number")}) {
         if (!refusal.empty()) {
             return refusal;
         }
