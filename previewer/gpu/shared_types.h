@@ -29,7 +29,7 @@ static_assert(sizeof(IsmUniforms) == 4 * k_row);
 static_assert(sizeof(GpuPointSource) == 2 * k_row);
 static_assert(sizeof(GpuEmitterSource) == 3 * k_row);
 static_assert(sizeof(GpuPointSurface) == 4 * k_row);
-static_assert(sizeof(AvgUniforms) == 2 * k_row);
+static_assert(sizeof(AvgUniforms) == 3 * k_row);
 static_assert(sizeof(GpuAvgVoxel) == 6 * k_row);
 static_assert(sizeof(GpuAvgRay) == 4 * k_row);
 static_assert(sizeof(DeformJob) == 3 * k_row);

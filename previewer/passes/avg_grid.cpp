@@ -34,9 +34,9 @@ gl::Defines batch_defines(const gpu::DrawFeatures& features, Stage stage) {
     return defines;
 }
 
-void clear_count(const gl::Texture& counts, int which) {
+void clear_count(const gl::Texture& counts) {
     const GLuint zero = 0;
-    glClearTexSubImage(counts.id(), 0, which, 0, 0, 1, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glClearTexImage(counts.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
 void bind_batch(const gpu::DrawBatch& batch) {
@@ -59,7 +59,7 @@ void run_stage(const PassContext& context, const PassResources& resources, const
         }
         const gl::Defines defines = batch_defines(batch.features, stage);
         context.scene.bind_material(batch);
-        clear_count(resources.texture(list.counts), 0);
+        clear_count(resources.texture(list.counts));
         context.programs.compute("passes/avg_triangles.comp", defines).use();
         bind_batch(batch);
         const auto groups = static_cast<GLuint>((triangles + GROUP_1D - 1) / GROUP_1D);
@@ -86,7 +86,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         list.tiles = builder.create_texture(
             "avg tiles",
             {.format = GL_R32UI, .width = 2 * AVG_TILE_ROW, .height = AVG_MOST_TILES / AVG_TILE_ROW});
-        list.counts = builder.create_texture("avg counts", {.format = GL_R32UI, .width = 2, .height = 1});
+        list.counts = builder.create_texture("avg counts", {.format = GL_R32UI, .width = 1, .height = 1});
         return [context, grid, list](const PassResources& resources) {
             const GLuint zero = 0;
             const gl::Texture& cells = resources.texture(grid.cells);
@@ -96,26 +96,37 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
             run_stage(context, resources, list, Stage::mark);
         };
     });
+    const int rows = size.y * size.z;
     BufferHandle sums;
     graph.add_pass("avg voxels", [&](PassBuilder& builder) {
         grid.cells = builder.write(grid.cells);
         list.tiles = builder.write(list.tiles);
         list.counts = builder.write(list.counts);
+        grid.rows = builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float));
         sums = builder.create_buffer("avg sums", capacity * AVG_SUM_WORDS * sizeof(GLuint));
         grid.surfaces = builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel));
-        return [context, grid, list, sums, size](const PassResources& resources) {
-            clear_count(resources.texture(list.counts), 1);
+        return [context, grid, list, sums, size, rows](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);
             resources.texture(grid.cells).bind_image(IMG_AVG_CELLS, GL_READ_WRITE);
-            resources.texture(list.counts).bind_image(IMG_AVG_COUNTS, GL_READ_WRITE);
-            resources.buffer(sums).bind_storage(SSBO_AVG_SUMS);
-            context.programs.compute("passes/avg_places.comp").use();
-            glDispatchCompute((static_cast<GLuint>(size.x) + GROUP_1D - 1) / GROUP_1D,
-                              static_cast<GLuint>(size.y), static_cast<GLuint>(size.z));
+            resources.buffer(grid.rows).bind_storage(SSBO_ROW_SUMS);
+            const auto place = [&](const gl::Defines& defines) {
+                context.programs.compute("passes/avg_places.comp", defines).use();
+                glDispatchCompute((static_cast<GLuint>(rows) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+                finish_writes();
+            };
+            place({{"COUNT", "1"}});
+            context.programs.compute("passes/vpl_scan.comp").use();
+            glUniform1i(0, rows);
+            glDispatchCompute(1, 1, 1);
             finish_writes();
+            place({});
+            resources.buffer(sums).clear_to_zero();
+            resources.buffer(sums).bind_storage(SSBO_AVG_SUMS);
             run_stage(context, resources, list, Stage::sum);
             context.programs.compute("passes/avg_surfaces.comp").use();
             resources.buffer(grid.surfaces).bind_storage(SSBO_AVG_VOXELS);
+            resources.buffer(grid.rows).bind_storage(SSBO_ROW_SUMS);
+            glUniform1i(0, rows);
             glDispatchCompute((static_cast<GLuint>(size.w) + GROUP_1D - 1) / GROUP_1D, 1, 1);
             finish_writes();
         };
@@ -132,7 +143,6 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
             run_stage(context, resources, list, Stage::bound);
         };
     });
-    grid.counts = list.counts;
     return grid;
 }
 

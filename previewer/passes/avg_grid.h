@@ -12,7 +12,7 @@ struct AvgGrid {
     gpu::AvgUniforms layout{};
     TextureHandle cells;    // R32UI, a layer for each z: shaders/lib/avg.glsl
     BufferHandle surfaces;  // GpuAvgVoxel
-    TextureHandle counts;   // R32UI; its second texel: surfaces that were found, more than there is room for or not
+    BufferHandle rows;      // running sums of the surfaces in each row along x, floats; the last: of all, room or not
     [[nodiscard]] bool valid() const { return surfaces.valid(); }
 };
 

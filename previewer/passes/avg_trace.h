@@ -11,8 +11,10 @@ struct AvgTraceInputs {
     AvgGrid grid;
     AvgHits hits = AvgHits::slabs;
     AvgPaths paths = AvgPaths::roulette;
-    const gl::Buffer* numbers = nullptr;  // vec4, a low-discrepancy sequence; one for each ray at least
-    int bounce = 1;                       // turns the sequence, so that bounces have unlike ones
+    // vec4, `sequences` of as many low-discrepancy numbers; one for each ray at least.
+    const gl::Buffer* numbers = nullptr;
+    int sequences = 1;
+    int bounce = 0;      // which of the sequences, and, where there are more bounces, how it is turned
     bool glossy = true;                   // glossy reflection is kept
 };
 

@@ -2,6 +2,7 @@
 #include "renderer/avg_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -98,6 +99,15 @@ glm::dvec2 on_disk(double u, double v) {
     return {radius * std::cos(2.0 * pi * v), radius * std::sin(2.0 * pi * v)};
 }
 
+double radical_inverse(uint32_t base, uint32_t i) {
+    double digit = 1.0 / base;
+    double value = 0.0;
+    for (; i > 0; i /= base, digit /= base) {
+        value += (i % base) * digit;
+    }
+    return value;
+}
+
 glm::dvec3 xyz(const glm::vec4& v) {
     return glm::dvec3(glm::vec3(v));
 }
@@ -177,13 +187,17 @@ glm::dvec3 avg_flux(const LightSetup& light) {
 }
 
 std::vector<glm::vec4> avg_numbers(int count) {
+    constexpr std::array<std::array<uint32_t, 2>, k_avg_sequences> bases = {{{3, 5}, {7, 11}, {13, 17}, {19, 23}}};
     std::vector<glm::vec4> out;
-    out.reserve(static_cast<size_t>(count));
-    for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-        const glm::dvec3 a = scene::sobol_point(i, k_place_seed);
-        const glm::dvec3 b = scene::sobol_point(i, k_direction_seed);
-        // A double just below 1 would round up to it.
-        out.push_back(glm::min(glm::vec4(glm::dvec4(a, b.z)), glm::vec4(0.99999994F)));
+    out.reserve(static_cast<size_t>(count) * bases.size());
+    for (size_t k = 0; k < bases.size(); ++k) {
+        for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+            const auto seed = k_place_seed + static_cast<uint32_t>(k) * 0x9e3779b9U;
+            const glm::dvec3 rest = scene::sobol_point(i, seed);
+            const glm::dvec4 numbers(radical_inverse(bases[k][0], i), radical_inverse(bases[k][1], i), rest.y, rest.z);
+            // A double just below 1 would round up to it.
+            out.push_back(glm::min(glm::vec4(numbers), glm::vec4(0.99999994F)));
+        }
     }
     return out;
 }

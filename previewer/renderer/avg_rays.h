@@ -27,7 +27,10 @@ struct AvgRayLight {
 [[nodiscard]] std::vector<gpu::GpuAvgRay> avg_rays(std::span<const AvgRayLight> lights,
                                                    const IsmLayout& layout);
 
-// A low-discrepancy sequence of `count` points in [0, 1)^4, for where rays go on.
+// Numbers in [0, 1)^4 for where rays go on: of each of k_avg_sequences bounces `count` of them. The first two are a point of
+// the Halton sequence in two bases of the bounce's own, none of them the 2 of the lights' rays: in one base, where
+// a path turns to would depend on where it came from.
+constexpr int k_avg_sequences = 4;
 [[nodiscard]] std::vector<glm::vec4> avg_numbers(int count);
 
 // Flux of a light's rays, rgb.

@@ -25,6 +25,7 @@
 #include "passes/vpl_gather.h"
 #include "passes/vpl_sampling.h"
 #include "passes/vpl_view.h"
+#include "renderer/avg_rays.h"
 
 namespace bounce {
 namespace {
@@ -158,6 +159,7 @@ passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgG
             .hits = in.settings.avg_hits,
             .paths = in.settings.avg_paths,
             .numbers = in.avg.numbers,
+            .sequences = k_avg_sequences,
             .bounce = number,
             .glossy = in.plan.glossy};
 }
@@ -168,7 +170,7 @@ passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, cons
                                const passes::AvgGrid& grid, BouncedLights& lit) {
     using namespace passes;
     if (in.settings.bounce_source == BounceSource::avg) {
-        return add_vpls_from_avg(graph, in.context, trace_inputs(in, grid, static_cast<int>(lit.sets.size()) + 1), before, next.lights);
+        return add_vpls_from_avg(graph, in.context, trace_inputs(in, grid, static_cast<int>(lit.sets.size())), before, next.lights);
     }
     VplSet maps = irsms;
     maps.vpls = before.vpls;
@@ -225,7 +227,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     for (size_t i = 0; i < in.bounces.size(); ++i) {
         if (i == 0 && in.plan.traced) {
             add_lights(graph, in, scene,
-                       add_vpls_from_rays(graph, in.context, trace_inputs(in, grid, 0), *in.avg.rays,
+                       add_vpls_from_rays(graph, in.context, trace_inputs(in, grid, k_avg_sequences - 1), *in.avg.rays,
                                           in.bounces[0].lights),
                        lit);
         } else if (i == 0) {

@@ -405,7 +405,7 @@ AvgInputs Renderer::prepare_avg(const std::vector<AvgRayLight>& lights, const Se
     out.grid.uniforms = uniforms_.add(out.grid.layout);
     const IsmLayout first = ism_layout(settings, 1, 0);
     const int most = std::max(first.vpls, ism_layout(settings, 2, 0).vpls);
-    if (avg_numbers_.bytes() < static_cast<size_t>(most) * sizeof(glm::vec4)) {
+    if (avg_numbers_.bytes() < static_cast<size_t>(most) * k_avg_sequences * sizeof(glm::vec4)) {
         const std::vector<glm::vec4> numbers = avg_numbers(most);
         avg_numbers_ = gl::Buffer::of("avg numbers", std::span<const glm::vec4>(numbers));
     }

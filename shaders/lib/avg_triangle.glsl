@@ -7,8 +7,8 @@
 //   AVG_SUM    sums up normals and materials, by area
 //   AVG_BOUND  bounds where the surfaces are along their main normal
 //
-// Sums are 64-bit integers in steps of 2^-32 of a voxel's face, so that they do not depend on the order of additions, a
-// million specks in a voxel still count, and no number of surfaces overflows them.
+// Sums are 64-bit integers in steps of 2^-40 of a voxel's face, so that they do not depend on the order of additions, a
+// million specks in a voxel still count, and eight million whole faces do not overflow them.
 #ifndef LIB_AVG_TRIANGLE
 #define LIB_AVG_TRIANGLE
 
@@ -118,16 +118,20 @@ void triangle_columns(AvgTriangle t, out ivec2 first, out ivec2 last) {
     last = clamp(ivec2(floor(high)), ivec2(0), size - 1);
 }
 
-// What of a polygon lies where dot(plane.xyz, p) + plane.w >= 0 (Sutherland and Hodgman 1974, "Reentrant Polygon
-// Clipping").
-void clip(inout vec3 corners[AVG_CORNERS], inout int count, vec4 plane) {
+// The part of the triangle that is looked at, as a polygon.
+vec3 corners[AVG_CORNERS];
+int count = 0;
+
+// Cuts the polygon's part beyond a plane across an axis off, where side is 1 what lies above it, where -1 what lies below
+// (Sutherland and Hodgman 1974, "Reentrant Polygon Clipping").
+void clip(vec3 axis, float plane, float side) {
     vec3 kept[AVG_CORNERS];
     int n = 0;
     vec3 before = corners[max(count - 1, 0)];
-    float height_before = dot(plane.xyz, before) + plane.w;
+    float height_before = (plane - dot(axis, before)) * side;
     for (int i = 0; i < count; ++i) {
         vec3 now = corners[i];
-        float height = dot(plane.xyz, now) + plane.w;
+        float height = (plane - dot(axis, now)) * side;
         if ((height >= 0.0) != (height_before >= 0.0) && n < AVG_CORNERS) {
             kept[n] = mix(before, now, height_before / (height_before - height));
             ++n;
@@ -218,7 +222,7 @@ float opaque_part(GpuMaterial m, float alpha) {
 }
 
 // A polygon's mean base colour, and the part of it that is opaque.
-vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 corners[AVG_CORNERS], int count, vec3 middle, float area) {
+vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 middle, float area) {
 #if defined(ALPHA_TEST) && (defined(BASE_COLOR_TEXTURE) || defined(VERTEX_COLOR))
     // At four places of each triangle between its middle and an edge, a quarter of it each.
     vec3 color = vec3(0.0);
@@ -229,7 +233,7 @@ vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 corners[AVG_CORNERS], int 
         vec3 b = corners[i + 1 < count ? i + 1 : 0];
         float quarter = 0.125 * length(cross(a - middle, b - middle)) + 1e-30;
         vec3 center = (a + b + middle) / 3.0;
-        for (int j = 0; j < 4; ++j) {
+        for (int j = 0; j < avg.sides.x; ++j) {  // four
             vec3 place = j == 0 ? center : mix(center, j == 1 ? a : j == 2 ? b : middle, 0.5);
             vec4 sampled = triangle_color(t, m, place.xy, quarter);
             float part = opaque_part(m, sampled.a) * quarter;
@@ -248,7 +252,7 @@ vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 corners[AVG_CORNERS], int 
 
 #if STAGE == AVG_SUM
 void add(uint word, float value) {
-    float size = abs(value) * 4294967296.0;
+    float size = abs(value) * AVG_SUM_STEPS;
     uint high = uint(size * (1.0 / 4294967296.0));
     uint low = uint(size - float(high) * 4294967296.0);
     if (value < 0.0) {
@@ -264,7 +268,7 @@ void add(uint word, float value) {
 #endif
 
 // The part of a triangle that lies in a voxel.
-void meet(AvgTriangle t, vec3 corners[AVG_CORNERS], int count, ivec3 turned_cell) {
+void meet(AvgTriangle t, ivec3 turned_cell) {
     ivec3 cell = turned_back(turned_cell, t.axis);
 #if STAGE != AVG_MARK
     uint word = imageLoad(cells, cell).r;
@@ -283,7 +287,7 @@ void meet(AvgTriangle t, vec3 corners[AVG_CORNERS], int count, ivec3 turned_cell
     middle /= float(count);
     float area = 0.5 * length(across);
     GpuMaterial m = materials[t.material];
-    vec4 color = polygon_color(t, m, corners, count, middle, area);
+    vec4 color = polygon_color(t, m, middle, area);
     if (color.a <= 0.0) {
         return;
     }
@@ -337,17 +341,17 @@ void meet(AvgTriangle t, vec3 corners[AVG_CORNERS], int count, ivec3 turned_cell
 
 // The part of a triangle that lies in a column of voxels.
 void meet_column(AvgTriangle t, ivec2 column) {
-    vec3 corners[AVG_CORNERS];
     corners[0] = t.corner[0];
     corners[1] = t.corner[1];
     corners[2] = t.corner[2];
-    int count = 3;
-    vec2 low = vec2(column) - AVG_REACH;
-    vec2 high = vec2(column) + (1.0 + AVG_REACH);
-    clip(corners, count, vec4(1.0, 0.0, 0.0, -low.x));
-    clip(corners, count, vec4(-1.0, 0.0, 0.0, high.x));
-    clip(corners, count, vec4(0.0, 1.0, 0.0, -low.y));
-    clip(corners, count, vec4(0.0, -1.0, 0.0, high.y));
+    count = 3;
+    // Loops, and not a row of calls: compilers take long over many copies of the clipping.
+    for (int i = 0; i < avg.sides.x; ++i) {
+        vec3 axis = i < 2 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+        float side = (i & 1) == 0 ? -1.0 : 1.0;
+        float low = float(i < 2 ? column.x : column.y);
+        clip(axis, side < 0.0 ? low - AVG_REACH : low + 1.0 + AVG_REACH, side);
+    }
     float least = 1e30;
     float most = -1e30;
     for (int i = 0; i < count; ++i) {
@@ -357,13 +361,16 @@ void meet_column(AvgTriangle t, ivec2 column) {
     int depth = int(turned(vec3(avg.size.xyz), t.axis).z);
     int first = clamp(int(floor(clamp(least, -2.0, 1e6) - AVG_REACH)), 0, depth - 1);
     int last = count == 0 ? first - 1 : clamp(int(floor(clamp(most, -2.0, 1e6) + AVG_REACH)), 0, depth - 1);
+    vec3 whole[AVG_CORNERS] = corners;
+    int whole_count = count;
     for (int z = first; z <= last; ++z) {
-        vec3 part[AVG_CORNERS] = corners;
-        int part_count = count;
-        clip(part, part_count, vec4(0.0, 0.0, 1.0, AVG_REACH - float(z)));
-        clip(part, part_count, vec4(0.0, 0.0, -1.0, float(z + 1) + AVG_REACH));
-        if (part_count > 0) {
-            meet(t, part, part_count, ivec3(column, z));
+        corners = whole;
+        count = whole_count;
+        for (int i = 0; i < avg.sides.y; ++i) {
+            clip(vec3(0.0, 0.0, 1.0), i == 0 ? float(z) - AVG_REACH : float(z + 1) + AVG_REACH, i == 0 ? -1.0 : 1.0);
+        }
+        if (count > 0) {
+            meet(t, ivec3(column, z));
         }
     }
 }

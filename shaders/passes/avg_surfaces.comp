@@ -4,7 +4,8 @@
 #include "lib/avg.glsl"
 
 layout(local_size_x = GROUP_1D) in;
-layout(binding = IMG_AVG_COUNTS, r32ui) readonly uniform uimage2D counts;
+layout(location = 0) uniform int rows;
+layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock { float running_sums[]; };
 layout(std430, binding = SSBO_AVG_SUMS) readonly buffer SumBlock { uint sums[]; };
 layout(std430, binding = SSBO_AVG_VOXELS) writeonly buffer VoxelBlock { GpuAvgVoxel surfaces[]; };
 
@@ -17,7 +18,7 @@ float read_sum(uint word) {
         high = ~high + (low == 0u ? 1u : 0u);
         low = ~low + 1u;
     }
-    float value = float(high) + float(low) * (1.0 / 4294967296.0);
+    float value = (float(high) * 4294967296.0 + float(low)) * (1.0 / AVG_SUM_STEPS);
     return negative ? -value : value;
 }
 
@@ -35,7 +36,7 @@ vec3 main_direction(mat3 m) {
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= min(imageLoad(counts, ivec2(1, 0)).r, uint(avg.size.w))) {
+    if (index >= min(uint(running_sums[rows - 1]), uint(avg.size.w))) {
         return;
     }
     uint first = index * uint(AVG_SUM_WORDS);

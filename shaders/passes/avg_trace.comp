@@ -15,9 +15,10 @@ layout(local_size_x = GROUP_1D) in;
 layout(location = 0) uniform ivec3 maps;   // rays, size of their lights' maps, maps a row of the atlas
 layout(location = 1) uniform ivec3 before;  // lights of the bounce before; n and lights a subset of these rays' lights
 layout(location = 2) uniform vec4 turn;    // of the sequence, for this bounce
+layout(location = 3) uniform int first_number;
 
 layout(std430, binding = SSBO_VPLS_OUT) writeonly buffer VplOutBlock { GpuVpl drawn[]; };
-// A low-discrepancy sequence in [0, 1)^4.
+// Low-discrepancy numbers in [0, 1)^4 (renderer/avg_rays.h).
 layout(std430, binding = SSBO_AVG_NUMBERS) readonly buffer NumberBlock { vec4 numbers[]; };
 #ifdef FROM_LIGHTS
 layout(std430, binding = SSBO_AVG_RAYS) readonly buffer RayBlock { GpuAvgRay rays[]; };
@@ -89,7 +90,7 @@ void main() {
     if (index >= maps.x) {
         return;
     }
-    vec4 u = fract(numbers[index] + turn);
+    vec4 u = fract(numbers[first_number + index] + turn);
     vec3 origin;
     vec3 direction;
     vec3 leaving;

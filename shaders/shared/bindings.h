@@ -127,6 +127,7 @@
 // AVG_SMALL columns are taken through all by one thread.
 // Words of a surface's sums (lib/avg_triangle.glsl).
 #define AVG_SUM_WORDS 28
+#define AVG_SUM_STEPS 1099511627776.0
 #define AVG_TILE 8
 #define AVG_SMALL 16
 // Tiles of one batch of draws that are listed at most, AVG_TILE_ROW a row of the list; a triangle that finds it full is

@@ -92,7 +92,7 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
     const scene::Pose pose = scene::evaluate_pose(scene, time_s);
     gpu::GpuScene gpu_scene(scene);
     gpu_scene.set_pose(pose);
-    gl::ProgramCache programs;
+    static gl::ProgramCache programs;  // compiling takes longer than all else
     if (gpu_scene.deforms()) {
         passes::run_deform(programs, gpu_scene);
     }
@@ -135,7 +135,7 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
         set.subset = layout.subset;
         set.cell_columns = layout.cell_columns;
         set.uniforms = uniforms.add(ism_uniforms(layout, settings, 0, 0.0));
-        const passes::AvgTraceInputs inputs{grid, settings.avg_hits, settings.avg_paths, &numbers, bounce,
+        const passes::AvgTraceInputs inputs{grid, settings.avg_hits, settings.avg_paths, &numbers, k_avg_sequences, bounce,
                                             settings.glossy_bounces};
         sets.push_back(bounce == 1
                            ? passes::add_vpls_from_rays(graph, context, inputs, rays, set)
@@ -144,7 +144,7 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
     graph.add_pass("read back", [&](PassBuilder& builder) {
         builder.read(grid.cells);
         builder.read(grid.surfaces);
-        builder.read(grid.counts);
+        builder.read(grid.rows);
         for (const passes::VplSet& set : sets) {
             builder.read(set.vpls);
         }
@@ -157,10 +157,9 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
             glGetTextureImage(resources.texture(grid.cells).id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
                               static_cast<GLsizei>(out.grid.cells.size() * sizeof(GLuint)),
                               out.grid.cells.data());
-            std::array<GLuint, 2> counts{};
-            glGetTextureImage(resources.texture(grid.counts).id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                              sizeof(counts), counts.data());
-            out.grid.found = static_cast<int>(counts[1]);
+            const auto last = static_cast<size_t>(size.y) * static_cast<size_t>(size.z) - 1;
+            out.grid.found =
+                static_cast<int>(resources.buffer(grid.rows).read<float>(1, last * sizeof(float))[0]);
             out.grid.surfaces = resources.buffer(grid.surfaces)
                                     .read<gpu::GpuAvgVoxel>(static_cast<size_t>(grid.layout.size.w));
             for (const passes::VplSet& set : sets) {

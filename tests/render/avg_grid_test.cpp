@@ -152,7 +152,7 @@ TEST_F(AvgGridOf, WallsOfABoxHasFlatSlabsAndTheirColour) {
         ++all;
         flat += thick < 0.01 ? 1 : 0;
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(surface.color[c], 0.25 * (c + 1), 1e-4);
+            EXPECT_NEAR(surface.color[c], 0.25 * (c + 1), 5e-4) << "to the sums' steps of the least area";
         }
         EXPECT_EQ(surface.tensor_rest.w, 1.0F) << "no hole";
     }
@@ -177,7 +177,6 @@ TEST_F(AvgGridOf, TheTwoSidesOfAThinWallDoNotCancelOut) {
 }
 
 TEST_F(AvgGridOf, TheSameTrianglesInAnyOrderAreTheSameBits) {
-    std::vector<glm::vec3> corners = all_shapes(3000);
     const auto bits = [](const std::map<std::array<int, 4>, gpu::GpuAvgVoxel>& sorted) {
         std::vector<std::byte> out;
         for (const auto& [place, surface] : sorted) {
@@ -186,6 +185,8 @@ TEST_F(AvgGridOf, TheSameTrianglesInAnyOrderAreTheSameBits) {
         }
         return out;
     };
+    for (const int count : {300, 6000}) {  // of the latter there is not room for all
+    const std::vector<glm::vec3> corners = all_shapes(count);
     const auto first = bits(trace(scene_of(corners), traced(32)).grid.sorted());
     EXPECT_TRUE(first == bits(trace(scene_of(corners), traced(32)).grid.sorted()));
     // Triangle by triangle backwards; the scene has its bounds from the same corners.
@@ -195,6 +196,7 @@ TEST_F(AvgGridOf, TheSameTrianglesInAnyOrderAreTheSameBits) {
     }
     EXPECT_TRUE(first == bits(trace(scene_of(backwards), traced(32)).grid.sorted()));
     EXPECT_GT(first.size(), 1000 * sizeof(gpu::GpuAvgVoxel));
+    }
 }
 
 // A square whose texture has a colour, and holes, by a function of the texel.
@@ -281,7 +283,9 @@ TEST_F(AvgGridOf, MoreSurfacesThanThereIsRoomForAreStillThere) {
     std::vector<glm::vec3> corners;
     for (int i = 0; i < 200000; ++i) {
         const glm::vec3 a(place(random), place(random), place(random));
-        corners.insert(corners.end(), {a, a + glm::vec3(4e-3F, 0.0F, 1e-3F), a + glm::vec3(0.0F, 3e-3F, 2e-3F)});
+        const glm::vec3 b(place(random), place(random), place(random));
+        const glm::vec3 c(place(random), place(random), place(random));
+        corners.insert(corners.end(), {a, a + b * 4e-3F, a + c * 4e-3F});
     }
     const ReadGrid grid = trace(scene_of(corners), traced(32)).grid;
     ASSERT_GT(grid.found, grid.layout.size.w);
