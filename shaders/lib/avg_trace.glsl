@@ -78,6 +78,8 @@ bool trace_avg(vec3 origin, vec3 direction, vec3 leaving, vec2 numbers, out AvgH
     vec3 next = (vec3(cell) + max(vec3(step_), 0.0) - start) * inverse;
     vec3 stride = abs(inverse);
     bool first = t == 0.0;
+    // Where the ray passed the holes of a surface last, of each axis: one that lies between two voxels is in both.
+    vec3 passed = vec3(-1.0);
     int most = avg.size.x + avg.size.y + avg.size.z;
     for (int i = 0; i < most; ++i) {
         float until = min(min(next.x, next.y), next.z);
@@ -119,7 +121,12 @@ bool trace_avg(vec3 origin, vec3 direction, vec3 leaving, vec2 numbers, out AvgH
                 float enter = into == 0.0 ? t : into * slope > 0.0 ? t + into / slope : 1e30;
                 bool own = first && into == 0.0 &&
                            (leaving == vec3(0.0) || (slab.y - slab.x < AVG_OWN_SLAB && abs(dot(n, leaving)) > AVG_OWN_COSINE));
-                if (slab.x <= slab.y && enter <= until + AVG_LEAVE && enter < nearest && !own && chance < coverage) {
+                bool met = slab.x <= slab.y && enter <= until + AVG_LEAVE && !own && abs(enter - passed[axis]) > AVG_LEAVE;
+                bool hole = met && chance >= coverage;
+                if (hole) {
+                    passed[axis] = enter;
+                }
+                if (met && !hole && enter < nearest) {
                     nearest = enter;
                     found = index;
                 }
