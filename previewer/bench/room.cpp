@@ -11,9 +11,6 @@
 namespace bounce::bench {
 namespace {
 
-constexpr int k_segments = 64;  // of a sphere, around
-constexpr int k_rings = 32;     // from pole to pole
-
 int add_material(scene::Scene& scene, const char* name, const glm::vec3& color) {
     scene::Material material;
     material.name = name;
@@ -60,22 +57,23 @@ scene::Primitive box(const glm::vec3& low, const glm::vec3& high, bool inward) {
     return out;
 }
 
-scene::Primitive unit_sphere() {
+// segments: around; rings: from pole to pole.
+scene::Primitive unit_sphere(int segments, int rings) {
     scene::Primitive out;
-    for (int ring = 0; ring <= k_rings; ++ring) {
-        const double theta = std::numbers::pi * ring / k_rings;
-        for (int segment = 0; segment <= k_segments; ++segment) {
-            const double phi = 2.0 * std::numbers::pi * segment / k_segments;
+    for (int ring = 0; ring <= rings; ++ring) {
+        const double theta = std::numbers::pi * ring / rings;
+        for (int segment = 0; segment <= segments; ++segment) {
+            const double phi = 2.0 * std::numbers::pi * segment / segments;
             const glm::vec3 place(glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta),
                                              -std::sin(theta) * std::sin(phi)));
             out.positions.push_back(place);
             out.normals.push_back(place);
         }
     }
-    for (int ring = 0; ring < k_rings; ++ring) {
-        for (int segment = 0; segment < k_segments; ++segment) {
-            const auto upper = static_cast<uint32_t>(ring * (k_segments + 1) + segment);
-            const auto lower = static_cast<uint32_t>(upper + k_segments + 1);
+    for (int ring = 0; ring < rings; ++ring) {
+        for (int segment = 0; segment < segments; ++segment) {
+            const auto upper = static_cast<uint32_t>(ring * (segments + 1) + segment);
+            const auto lower = static_cast<uint32_t>(upper + segments + 1);
             out.indices.insert(out.indices.end(), {upper, lower, lower + 1, upper, lower + 1, upper + 1});
         }
     }
@@ -105,7 +103,7 @@ glm::dmat4 looking(const glm::dvec3& from, const glm::dvec3& at) {
 
 }  // namespace
 
-scene::Scene make_room() {
+scene::Scene make_room(int segments) {
     scene::Scene scene;
     scene.name = "a generated room with spheres";
     const int white = add_material(scene, "white", glm::vec3(0.75F));
@@ -128,8 +126,8 @@ scene::Scene make_room() {
     add_mesh_node(scene, "Screen",
                   add_mesh(scene, "screen", box({-0.6F, 0.0F, -0.5F}, {-0.5F, 2.2F, 1.2F}, false), white));
 
-    const int ball = add_mesh(scene, "ball", unit_sphere(), white);
-    const int blue_ball = add_mesh(scene, "blue ball", unit_sphere(), blue);
+    const int ball = add_mesh(scene, "ball", unit_sphere(segments, segments / 2), white);
+    const int blue_ball = add_mesh(scene, "blue ball", unit_sphere(segments, segments / 2), blue);
     for (int i = 0; i < 12; ++i) {
         const double size = 0.18 + 0.06 * (i % 4);
         const glm::dvec3 place(-2.5 + 1.0 * (i % 6), i < 6 ? size : 1.4 + 0.2 * (i % 3),

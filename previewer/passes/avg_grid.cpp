@@ -120,15 +120,18 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
             glDispatchCompute(1, 1, 1);
             finish_writes();
             place({});
-            resources.buffer(sums).clear_to_zero();
+            const auto each_surface = [&](const gl::Defines& defines) {
+                context.programs.compute("passes/avg_surfaces.comp", defines).use();
+                resources.buffer(grid.rows).bind_storage(SSBO_ROW_SUMS);
+                glUniform1i(0, rows);
+                glDispatchCompute((static_cast<GLuint>(size.w) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+                finish_writes();
+            };
             resources.buffer(sums).bind_storage(SSBO_AVG_SUMS);
+            each_surface({{"CLEAR", "1"}});
             run_stage(context, resources, list, Stage::sum);
-            context.programs.compute("passes/avg_surfaces.comp").use();
             resources.buffer(grid.surfaces).bind_storage(SSBO_AVG_VOXELS);
-            resources.buffer(grid.rows).bind_storage(SSBO_ROW_SUMS);
-            glUniform1i(0, rows);
-            glDispatchCompute((static_cast<GLuint>(size.w) + GROUP_1D - 1) / GROUP_1D, 1, 1);
-            finish_writes();
+            each_surface({});
         };
     });
     graph.add_pass("avg slabs", [&](PassBuilder& builder) {

@@ -25,7 +25,7 @@ gpu::AvgUniforms avg_layout(const scene::Bounds& first, const scene::Bounds& pos
     const scene::Bounds& base = first.empty() ? now : first;
     gpu::AvgUniforms out{};
     out.size = {1, 1, 1, 1};
-    out.sides = {4, 2, 0, 0};
+    out.sides = {6, 4, 0, 0};
     out.origin = glm::vec4(-0.5F, -0.5F, -0.5F, 1.0F);
     if (now.empty()) {
         return out;

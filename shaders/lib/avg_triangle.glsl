@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes triangles through the voxels they meet, by clipping: a triangle meets a voxel where the part of it within the voxel
-// is not empty. That is exact for triangles of any size and shape, so none is lost, and gives the part's area. Included by
-// the two passes below, which differ in how many threads a triangle has. STAGE:
+// Takes triangles through the voxels they meet, by the test of separating axes, which is exact for triangles of any size
+// and shape, so that none is lost. Included by passes/avg_triangles.comp and passes/avg_tiles.comp, which differ in how
+// many threads a triangle has. STAGE:
 //   AVG_MARK   marks which voxels have a surface of which axis
 //   AVG_SUM    sums up normals and materials, by area
 //   AVG_BOUND  bounds where the surfaces are along their main normal
@@ -40,7 +40,7 @@ layout(binding = TEX_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_te
 layout(std430, binding = SSBO_AVG_COLORS) readonly buffer ColorBlock { vec4 colors[]; };
 #endif
 // What is cut out of a surface, by a cutoff or a part at a time, decides which voxels it is in.
-#if STAGE == AVG_SUM || defined(ALPHA_TEST)
+#if STAGE == AVG_SUM || (STAGE == AVG_MARK && defined(ALPHA_TEST))
 #define READ_MATERIAL
 #endif
 #if STAGE == AVG_MARK
@@ -63,6 +63,8 @@ const int AVG_CORNERS = 9;
 
 struct AvgTriangle {
     vec3 corner[3];   // in voxels, turned so that z is the axis that the normal points along most
+    vec3 across;      // the same turned, cross product of two sides
+    float slack;      // of the plane's place times the length of `across`: what rounding may have done to it
     vec3 normal;      // unit, not turned
     float area;       // faces of a voxel
     uint axis;
@@ -105,6 +107,12 @@ bool load_triangle(uint number, out AvgTriangle t) {
     t.corner[0] = turned(a, t.axis);
     t.corner[1] = turned(b, t.axis);
     t.corner[2] = turned(c, t.axis);
+    t.across = turned(across, t.axis);
+    // A side's rounding is some 2^-22 of it at most, the cross product's that of a side squared; far from the corner that
+    // it is measured from, a side's length away, the plane is off by as much again. Slivers have no plane to speak of.
+    vec3 sides = max(max(abs(b - a), abs(c - a)), abs(c - b));
+    float side = sides.x + sides.y + sides.z;
+    t.slack = 1e-6 * side * side * side;
     t.material = uint(draw.ids.x);
     return largest > 1e-37;
 }
@@ -118,6 +126,42 @@ void triangle_columns(AvgTriangle t, out ivec2 first, out ivec2 last) {
     last = clamp(ivec2(floor(high)), ivec2(0), size - 1);
 }
 
+// First and last voxel of a column that the triangle may meet: within its own reach, and where its plane passes.
+ivec2 triangle_depths(AvgTriangle t, ivec2 column) {
+    float least = min(min(t.corner[0].z, t.corner[1].z), t.corner[2].z);
+    float most = max(max(t.corner[0].z, t.corner[1].z), t.corner[2].z);
+    vec2 offset = vec2(column) + 0.5 - t.corner[0].xy;
+    float steep = max(abs(t.across.z), 1e-30);
+    float middle = t.corner[0].z - dot(t.across.xy, offset) / (t.across.z < 0.0 ? -steep : steep);
+    float reach = ((0.5 + AVG_REACH) * (abs(t.across.x) + abs(t.across.y)) + t.slack) / steep;
+    least = max(least, middle - reach) - AVG_REACH;
+    most = min(most, middle + reach) + AVG_REACH;
+    float depth = turned(vec3(avg.size.xyz), t.axis).z;
+    return ivec2(floor(clamp(vec2(least, most), 0.0, depth - 0.5)));
+}
+
+// Whether a triangle meets the voxel around a place, widened by AVG_REACH: no axis separates them (Akenine-Moller 2001,
+// "Fast 3D Triangle-Box Overlap Testing").
+bool separates(vec3 side, vec3 on_side, vec3 opposite, float half_) {
+    // Of the cross products of a side with x, y and z.
+    vec3 p = cross(side, on_side);
+    vec3 q = cross(side, opposite);
+    vec3 r = half_ * (abs(side).yxx + abs(side).zzy);
+    return any(greaterThan(min(p, q), r)) || any(lessThan(max(p, q), -r));
+}
+
+bool meets(AvgTriangle t, vec3 center) {
+    const float half_ = 0.5 + AVG_REACH;
+    vec3 a = t.corner[0] - center;
+    vec3 b = t.corner[1] - center;
+    vec3 c = t.corner[2] - center;
+    bool apart = any(greaterThan(min(min(a, b), c), vec3(half_))) || any(lessThan(max(max(a, b), c), vec3(-half_)));
+    vec3 n = abs(t.across);
+    apart = apart || abs(dot(t.across, a)) > half_ * (n.x + n.y + n.z) + t.slack;
+    return !(apart || separates(b - a, a, c, half_) || separates(c - b, b, a, half_) || separates(a - c, c, b, half_));
+}
+
+#ifdef READ_MATERIAL
 // The part of the triangle that is looked at, as a polygon.
 vec3 corners[AVG_CORNERS];
 int count = 0;
@@ -148,6 +192,8 @@ void clip(vec3 axis, float plane, float side) {
     }
     count = n;
 }
+
+#endif
 
 #ifdef READ_MATERIAL
 #if defined(BASE_COLOR_ENCODED) || defined(METALLIC_ROUGHNESS_ENCODED)
@@ -233,7 +279,7 @@ vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 middle, float area) {
         vec3 b = corners[i + 1 < count ? i + 1 : 0];
         float quarter = 0.125 * length(cross(a - middle, b - middle)) + 1e-30;
         vec3 center = (a + b + middle) / 3.0;
-        for (int j = 0; j < avg.sides.x; ++j) {  // four
+        for (int j = 0; j < avg.sides.y; ++j) {  // four
             vec3 place = j == 0 ? center : mix(center, j == 1 ? a : j == 2 ? b : middle, 0.5);
             vec4 sampled = triangle_color(t, m, place.xy, quarter);
             float part = opaque_part(m, sampled.a) * quarter;
@@ -252,6 +298,9 @@ vec4 polygon_color(AvgTriangle t, GpuMaterial m, vec3 middle, float area) {
 
 #if STAGE == AVG_SUM
 void add(uint word, float value) {
+    if (value == 0.0) {
+        return;
+    }
     float size = abs(value) * AVG_SUM_STEPS;
     uint high = uint(size * (1.0 / 4294967296.0));
     uint low = uint(size - float(high) * 4294967296.0);
@@ -270,21 +319,37 @@ void add(uint word, float value) {
 // The part of a triangle that lies in a voxel.
 void meet(AvgTriangle t, ivec3 turned_cell) {
     ivec3 cell = turned_back(turned_cell, t.axis);
+    vec3 center = vec3(turned_cell) + 0.5;
 #if STAGE != AVG_MARK
     uint word = imageLoad(cells, cell).r;
     if ((word >> t.axis & 1u) == 0u) {
-        return;  // cut out, or a point that rounding has put here now
+        return;  // cut out
     }
     uint index = avg_surface_index(word, t.axis);
 #endif
 #ifdef READ_MATERIAL
+    corners[0] = t.corner[0];
+    corners[1] = t.corner[1];
+    corners[2] = t.corner[2];
+    count = 3;
+    // Where the whole triangle is in the voxel, there is nothing to cut. Loops, and not a row of calls: compilers take long
+    // over many copies of the clipping.
+    vec3 low = min(min(t.corner[0], t.corner[1]), t.corner[2]) - center;
+    vec3 high = max(max(t.corner[0], t.corner[1]), t.corner[2]) - center;
+    bool inside = all(greaterThanEqual(low, vec3(-0.5))) && all(lessThanEqual(high, vec3(0.5)));
+    for (int i = inside ? avg.sides.x : 0; i < avg.sides.x; ++i) {
+        vec3 axis = i < 2 ? vec3(1.0, 0.0, 0.0) : i < 4 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+        float side = (i & 1) == 0 ? -1.0 : 1.0;
+        clip(axis, dot(axis, center) + 0.5 * side, side);
+    }
     vec3 middle = vec3(0.0);
     vec3 across = vec3(0.0);
     for (int i = 0; i < count; ++i) {
         middle += corners[i];
         across += cross(corners[i] - corners[0], corners[i + 1 < count ? i + 1 : 0] - corners[0]);
     }
-    middle /= float(count);
+    // A triangle that touches the voxel at most counts for the least.
+    middle = count > 0 ? middle / float(count) : (t.corner[0] + t.corner[1] + t.corner[2]) / 3.0;
     float area = 0.5 * length(across);
     GpuMaterial m = materials[t.material];
     vec4 color = polygon_color(t, m, middle, area);
@@ -325,54 +390,48 @@ void meet(AvgTriangle t, ivec3 turned_cell) {
     add(first + 24u, opaque * (m.flags.x == DIFFUSE_DISNEY ? 1.0 : 0.0));
     add(first + 26u, area - opaque);
 #else
+    // Along the surfaces' main normal n the part lies within the triangle, within the voxel, and, where x is in the
+    // triangle's plane m.x = m.a and n = (n.m) m + q, within n.x = (n.m)(m.a) + q.x.
     vec3 n = turned(surfaces[index].normal.xyz, t.axis);
-    vec3 center = vec3(turned_cell) + 0.5;
-    float low = 4.0;
-    float high = -4.0;
-    for (int i = 0; i < count; ++i) {
-        float along = dot(n, corners[i] - center);
-        low = min(low, along);
-        high = max(high, along);
-    }
+    vec3 a = t.corner[0] - center;
+    vec3 along = vec3(dot(n, a), dot(n, t.corner[1] - center), dot(n, t.corner[2] - center));
+    float of_voxel = (0.5 + AVG_REACH) * (abs(n.x) + abs(n.y) + abs(n.z));
+    vec3 m = turned(t.normal, t.axis);
+    float n_dot_m = dot(n, m);
+    vec3 q = abs(n - n_dot_m * m);
+    float of_plane = (0.5 + AVG_REACH) * (q.x + q.y + q.z) + t.slack / max(length(t.across), 1e-30);
+    float middle = n_dot_m * dot(m, a);
+    float low = max(max(min(min(along.x, along.y), along.z), -of_voxel), middle - of_plane);
+    float high = min(min(max(max(along.x, along.y), along.z), of_voxel), middle + of_plane);
     atomicMin(surfaces[index].slab.x, int(floor((low - AVG_REACH) * AVG_SLAB_STEPS)));
     atomicMax(surfaces[index].slab.y, int(ceil((high + AVG_REACH) * AVG_SLAB_STEPS)));
 #endif
 }
 
-// The part of a triangle that lies in a column of voxels.
+// The parts of a triangle that lie in a box of voxels, first to last. Looks for the next one that it meets in a loop of its
+// own: threads of a wave wait for each other's parts, not for each other's voxels.
+void meet_box(AvgTriangle t, ivec3 first, ivec3 last) {
+    ivec3 size = last - first + 1;
+    int voxels = size.x * size.y * size.z;
+    int next = 0;
+    while (next < voxels) {
+        ivec3 cell = first;
+        bool met = false;
+        while (!met && next < voxels) {
+            cell = first + ivec3(next % size.x, next / size.x % size.y, next / (size.x * size.y));
+            met = meets(t, vec3(cell) + 0.5);
+            ++next;
+        }
+        if (met) {
+            meet(t, cell);
+        }
+    }
+}
+
+// The same in a column of voxels.
 void meet_column(AvgTriangle t, ivec2 column) {
-    corners[0] = t.corner[0];
-    corners[1] = t.corner[1];
-    corners[2] = t.corner[2];
-    count = 3;
-    // Loops, and not a row of calls: compilers take long over many copies of the clipping.
-    for (int i = 0; i < avg.sides.x; ++i) {
-        vec3 axis = i < 2 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-        float side = (i & 1) == 0 ? -1.0 : 1.0;
-        float low = float(i < 2 ? column.x : column.y);
-        clip(axis, side < 0.0 ? low - AVG_REACH : low + 1.0 + AVG_REACH, side);
-    }
-    float least = 1e30;
-    float most = -1e30;
-    for (int i = 0; i < count; ++i) {
-        least = min(least, corners[i].z);
-        most = max(most, corners[i].z);
-    }
-    int depth = int(turned(vec3(avg.size.xyz), t.axis).z);
-    int first = clamp(int(floor(clamp(least, -2.0, 1e6) - AVG_REACH)), 0, depth - 1);
-    int last = count == 0 ? first - 1 : clamp(int(floor(clamp(most, -2.0, 1e6) + AVG_REACH)), 0, depth - 1);
-    vec3 whole[AVG_CORNERS] = corners;
-    int whole_count = count;
-    for (int z = first; z <= last; ++z) {
-        corners = whole;
-        count = whole_count;
-        for (int i = 0; i < avg.sides.y; ++i) {
-            clip(vec3(0.0, 0.0, 1.0), i == 0 ? float(z) - AVG_REACH : float(z + 1) + AVG_REACH, i == 0 ? -1.0 : 1.0);
-        }
-        if (count > 0) {
-            meet(t, ivec3(column, z));
-        }
-    }
+    ivec2 depths = triangle_depths(t, column);
+    meet_box(t, ivec3(column, depths.x), ivec3(column, depths.y));
 }
 
 #endif

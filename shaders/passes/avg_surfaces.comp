@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Surfaces of the approximate visibility grid from their sums: mean material and main normal.
+// Surfaces of the approximate visibility grid from their sums: mean material and main normal. CLEAR: makes the sums zero.
 #include "lib/avg.glsl"
 
 layout(local_size_x = GROUP_1D) in;
 layout(location = 0) uniform int rows;
 layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock { float running_sums[]; };
+#ifdef CLEAR
+layout(std430, binding = SSBO_AVG_SUMS) writeonly buffer SumBlock { uint sums[]; };
+#else
 layout(std430, binding = SSBO_AVG_SUMS) readonly buffer SumBlock { uint sums[]; };
 layout(std430, binding = SSBO_AVG_VOXELS) writeonly buffer VoxelBlock { GpuAvgVoxel surfaces[]; };
 
@@ -33,6 +36,7 @@ vec3 main_direction(mat3 m) {
     vec3 column = d.x >= d.y && d.x >= d.z ? m[0] : d.y >= d.z ? m[1] : m[2];
     return safe_normalize(column, vec3(0.0, 0.0, 1.0));
 }
+#endif
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
@@ -40,6 +44,11 @@ void main() {
         return;
     }
     uint first = index * uint(AVG_SUM_WORDS);
+#ifdef CLEAR
+    for (uint word = 0u; word < uint(AVG_SUM_WORDS); ++word) {
+        sums[first + word] = 0u;
+    }
+#else
     vec3 diagonal = vec3(read_sum(first), read_sum(first + 2u), read_sum(first + 4u));
     vec3 rest = vec3(read_sum(first + 6u), read_sum(first + 8u), read_sum(first + 10u));
     float area = diagonal.x + diagonal.y + diagonal.z;
@@ -58,4 +67,5 @@ void main() {
     bool shared_ = index == uint(avg.size.w) - 1u;
     surface.slab = shared_ ? ivec4(-0x200000, 0x200000, 0, 0) : ivec4(0x7fffffff, -0x7fffffff, 0, 0);
     surfaces[index] = surface;
+#endif
 }

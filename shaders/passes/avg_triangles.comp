@@ -41,7 +41,8 @@ void main() {
             imageStore(tiles, ivec2(2u * (at % uint(AVG_TILE_ROW)), at / uint(AVG_TILE_ROW)), uvec4(0xffffffffu));
         }
     }
-    for (int i = 0; i < columns.x * columns.y; ++i) {
-        meet_column(t, first + ivec2(i % columns.x, i / columns.x));
-    }
+    ivec2 depths = ivec2(floor(clamp(vec2(min(min(t.corner[0].z, t.corner[1].z), t.corner[2].z) - AVG_REACH,
+                                          max(max(t.corner[0].z, t.corner[1].z), t.corner[2].z) + AVG_REACH),
+                                     0.0, turned(vec3(avg.size.xyz), t.axis).z - 0.5)));
+    meet_box(t, ivec3(first, depths.x), ivec3(last, depths.y));
 }

@@ -150,7 +150,7 @@ struct IsmUniforms {
 struct AvgUniforms {
     vec4 origin;            // xyz render space, corner of the first voxel; w: side of a voxel
     ivec4 size;             // voxels along x, y, z; surfaces (GpuAvgVoxel) there is room for
-    ivec4 sides;            // 4, 2: how often the loops over a column's and a voxel's sides run, so that they stay loops; -; -
+    ivec4 sides;            // 6, 4: how often some loops run, so that they stay loops; -; -
 };
 
 // The surfaces of one voxel whose normals point along the same axis most, as they are traced.
