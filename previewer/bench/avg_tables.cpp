@@ -52,17 +52,17 @@ Settings preset(const BenchInputs& inputs) {
 }
 
 void describe(const BenchInputs& inputs, const Settings& settings, BenchReport& report) {
-    report.settings = {{"preset", "avg2012"},
-                       {"frame", fmt::format("{:g}", inputs.frame())},
-                       {"size", fmt::format("{}x{}", settings.width, settings.height)},
-                       {"VPLs", fmt::format("{} and {} of each further bounce", settings.vpls,
-                                            settings.bounce_vpls)},
-                       {"bounces", std::to_string(settings.bounces)},
-                       {"grid", std::to_string(settings.avg_size)},
-                       {"hits", name_of(settings.avg_hits)},
-                       {"visibility", name_of(settings.visibility)},
-                       {"map size", std::to_string(settings.ism_size)},
-                       {"interleave", fmt::format("{0}x{0}", settings.interleave)}};
+    report.settings = {
+        {"preset", "avg2012"},
+        {"frame", fmt::format("{:g}", inputs.frame())},
+        {"size", fmt::format("{}x{}", settings.width, settings.height)},
+        {"VPLs", fmt::format("{} and {} of each further bounce", settings.vpls, settings.bounce_vpls)},
+        {"bounces", std::to_string(settings.bounces)},
+        {"grid", std::to_string(settings.avg_size)},
+        {"hits", name_of(settings.avg_hits)},
+        {"visibility", name_of(settings.visibility)},
+        {"map size", std::to_string(settings.ism_size)},
+        {"interleave", fmt::format("{0}x{0}", settings.interleave)}};
 }
 
 bool fills_grid(const MeasuredPass& pass) {
@@ -78,20 +78,21 @@ double frames(const MeasuredFrame& measured) {
 }
 
 Table paper_stages() {
-    Table table{.title = "The paper's Table I",
-                .note = fmt::format("{}; 1024 lights of three bounces, 1024x768 pixels.", k_avg_paper_machine),
-                .columns = {{"scene", ""},
-                            {"triangles", ""},
-                            {"grid", "ms"},
-                            {"trace", "ms"},
-                            {"shadow maps", "ms"},
-                            {"the rest", "ms"},
-                            {"without visibility", "frames/s"},
-                            {"with visibility", "frames/s"}},
-                .rows = {}};
+    Table table{
+        .title = "The paper's Table I",
+        .note = fmt::format("{}; 1024 lights of three bounces, 1024x768 pixels.", k_avg_paper_machine),
+        .columns = {{"scene", ""},
+                    {"triangles", ""},
+                    {"grid", "ms"},
+                    {"trace", "ms"},
+                    {"shadow maps", "ms"},
+                    {"the rest", "ms"},
+                    {"without visibility", "frames/s"},
+                    {"with visibility", "frames/s"}},
+        .rows = {}};
     for (const PaperScene& s : k_paper_scenes) {
-        table.rows.push_back({s.name, static_cast<double>(s.triangles), s.vox, s.trace, s.maps, s.rest,
-                              s.fps_none, s.fps});
+        table.rows.push_back(
+            {s.name, static_cast<double>(s.triangles), s.vox, s.trace, s.maps, s.rest, s.fps_none, s.fps});
     }
     return table;
 }
@@ -104,18 +105,20 @@ void measure_avg_stages(const BenchInputs& inputs, BenchReport& report) {
     Settings open = settings;
     open.visibility = Visibility::none;
     std::vector<scene::Scene> scenes;
-    for (const PaperScene& of : inputs.values(std::vector<PaperScene>(std::begin(k_paper_scenes),
-                                                                      std::end(k_paper_scenes)))) {
+    for (const PaperScene& of :
+         inputs.values(std::vector<PaperScene>(std::begin(k_paper_scenes), std::end(k_paper_scenes)))) {
         scenes.push_back(make_room(of.segments));
     }
     scenes.push_back(inputs.scene);
     Progress progress("bench avg-table1", static_cast<int>(scenes.size()));
-    Table table{.title = "Time of each stage against triangles",
-                .note = "Rooms with spheres of about as many triangles as the paper's scenes, then the scene given. "
-                        "Grid: filling it; trace: following rays through it and finding the area that each "
-                        "light stands for; the rest: G-buffer, direct light, gather and blur.",
-                .columns = paper_stages().columns,
-                .rows = {}};
+    Table table{
+        .title = "Time of each stage against triangles",
+        .note =
+            "Rooms with spheres of about as many triangles as the paper's scenes, then the scene given. "
+            "Grid: filling it; trace: following rays through it and finding the area that each "
+            "light stands for; the rest: G-buffer, direct light, gather and blur.",
+        .columns = paper_stages().columns,
+        .rows = {}};
     Plot plot{.title = "Time of each stage against triangles",
               .note = "Dashed: the paper's, on its own machine and scenes.",
               .kind = Plot::Kind::lines,
@@ -158,9 +161,10 @@ void measure_avg_stages(const BenchInputs& inputs, BenchReport& report) {
     }
     report.tables = {std::move(table), paper_stages()};
     report.plots.push_back(std::move(plot));
-    report.paper = {fmt::format("\"the times for the voxelisation stage (the construction of the AVG) are in the "
-                                "order of a couple of milliseconds for moderately complicated scenes.\" ({})",
-                                k_avg_paper_machine)};
+    report.paper = {
+        fmt::format("\"the times for the voxelisation stage (the construction of the AVG) are in the "
+                    "order of a couple of milliseconds for moderately complicated scenes.\" ({})",
+                    k_avg_paper_machine)};
 }
 
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report) {
@@ -170,18 +174,19 @@ void measure_avg_screens(const BenchInputs& inputs, BenchReport& report) {
     std::vector<ScreenSize> sizes = inputs.values(k_sizes);
     FrameBench bench = inputs.bench(inputs.scene);
     Progress progress("bench avg-table2", static_cast<int>(sizes.size()));
-    Table table{.title = "Frames a second against screen size",
-                .note = fmt::format("Paper: {}. Over the first: how many times as many frames as on its smallest "
-                                    "screen.",
-                                    k_avg_paper_machine),
-                .columns = {{"screen", ""},
-                            {"ours", "frames/s"},
-                            {"paper, Office", "frames/s"},
-                            {"paper, Sibenik", "frames/s"},
-                            {"ours over the first", "times"},
-                            {"Office over the first", "times"},
-                            {"Sibenik over the first", "times"}},
-                .rows = {}};
+    Table table{
+        .title = "Frames a second against screen size",
+        .note = fmt::format("Paper: {}. Over the first: how many times as many frames as on its smallest "
+                            "screen.",
+                            k_avg_paper_machine),
+        .columns = {{"screen", ""},
+                    {"ours", "frames/s"},
+                    {"paper, Office", "frames/s"},
+                    {"paper, Sibenik", "frames/s"},
+                    {"ours over the first", "times"},
+                    {"Office over the first", "times"},
+                    {"Sibenik over the first", "times"}},
+        .rows = {}};
     Plot plot{.title = "Frames a second against screen size",
               .note = "Dashed: the paper's, on its own machine and scenes.",
               .kind = Plot::Kind::lines,

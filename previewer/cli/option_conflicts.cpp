@@ -235,8 +235,9 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    for (std::string conflict : {technique_conflict(o, s), shadow_conflict(o, s), avg_conflict(o, s), emitter_conflict(o, s),
-                                 bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
+    for (std::string conflict :
+         {technique_conflict(o, s), shadow_conflict(o, s), avg_conflict(o, s), emitter_conflict(o, s),
+          bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

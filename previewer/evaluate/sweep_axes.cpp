@@ -192,7 +192,8 @@ std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bo
             "has the most bounces");
     }
     if (named("bounces-by") && bounces < 2) {
-        throw usage_error("--sweep bounces-by needs --bounces 2 or more: what it varies is of further bounces");
+        throw usage_error(
+            "--sweep bounces-by needs --bounces 2 or more: what it varies is of further bounces");
     }
     std::vector<PreviewRun> runs;
     for (const SweepAxis& axis : sweep_axes()) {

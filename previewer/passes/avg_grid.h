@@ -12,7 +12,8 @@ struct AvgGrid {
     gpu::AvgUniforms layout{};
     TextureHandle cells;    // R32UI, a layer for each z: shaders/lib/avg.glsl
     BufferHandle surfaces;  // GpuAvgVoxel
-    BufferHandle rows;      // running sums of the surfaces in each row along x, floats; the last: of all, room or not
+    BufferHandle
+        rows;  // running sums of the surfaces in each row along x, floats; the last: of all, room or not
     [[nodiscard]] bool valid() const { return surfaces.valid(); }
 };
 
@@ -20,8 +21,8 @@ struct AvgGrid {
 // triangle with an area is in every voxel that it meets, but for what its material cuts out.
 [[nodiscard]] AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid);
 
-// The grid's surfaces as the camera sees them: each voxel's as a piece of its plane, in its base colour, shaded by its
-// normal.
+// The grid's surfaces as the camera sees them: each voxel's as a piece of its plane, in its base colour,
+// shaded by its normal.
 void add_avg_view(FrameGraph& graph, const PassContext& context, const AvgGrid& grid, bool whole_voxels,
                   TextureHandle target);
 

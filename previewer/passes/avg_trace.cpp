@@ -80,7 +80,8 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
             }
             resources.buffer(out.vpls).bind_storage(SSBO_VPLS_OUT);
             const glm::vec4 turn = turn_of(inputs.bounce / inputs.sequences);
-            const auto numbers = static_cast<int>(inputs.numbers->bytes() / sizeof(glm::vec4)) / inputs.sequences;
+            const auto numbers =
+                static_cast<int>(inputs.numbers->bytes() / sizeof(glm::vec4)) / inputs.sequences;
             glUniform3i(0, out.maps, out.map_size, out.columns);
             glUniform3i(1, before.maps, out.interleave, out.subset);
             glUniform4f(2, turn.x, turn.y, turn.z, turn.w);

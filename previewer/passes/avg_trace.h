@@ -15,12 +15,12 @@ struct AvgTraceInputs {
     const gl::Buffer* numbers = nullptr;
     int sequences = 1;
     int bounce = 0;      // which of the sequences, and, where there are more bounces, how it is turned
-    bool glossy = true;                   // glossy reflection is kept
+    bool glossy = true;  // glossy reflection is kept
 };
 
-// Virtual point lights where rays meet the grid (Bashford-Rogers et al. 2012, III.B), with the flux of their rays;
-// dark ones where a ray leaves it. `layout` says how many and where they go.
-// Of rays from the scene's lights (GpuAvgRay, layout.maps of them).
+// Virtual point lights where rays meet the grid (Bashford-Rogers et al. 2012, III.B), with the flux of their
+// rays; dark ones where a ray leaves it. `layout` says how many and where they go. Of rays from the scene's
+// lights (GpuAvgRay, layout.maps of them).
 [[nodiscard]] VplSet add_vpls_from_rays(FrameGraph& graph, const PassContext& context,
                                         const AvgTraceInputs& inputs, const gl::Buffer& rays, VplSet layout);
 // Of rays from the lights of the bounce before.

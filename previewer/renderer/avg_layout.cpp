@@ -19,6 +19,12 @@ long long avg_surfaces(int size) {
     return k_faces * size * size;
 }
 
+int most_avg_size(long long block_bytes) {
+    // Six faces of single surfaces.
+    const double faces = static_cast<double>(block_bytes) / static_cast<double>(k_surface_bytes) / 6.0;
+    return static_cast<int>(std::sqrt(std::max(faces, 0.0)));
+}
+
 gpu::AvgUniforms avg_layout(const scene::Bounds& first, const scene::Bounds& pose,
                             const gpu::RenderSpace& space, int size, long long block_bytes) {
     const scene::Bounds& now = pose.empty() ? first : pose;

@@ -21,4 +21,7 @@ namespace bounce {
 // grid. The walls of a box are six.
 [[nodiscard]] long long avg_surfaces(int size);
 
+// The largest grid of which such a buffer holds at least the walls of a box.
+[[nodiscard]] int most_avg_size(long long block_bytes);
+
 }  // namespace bounce

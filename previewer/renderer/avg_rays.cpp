@@ -179,22 +179,24 @@ Start start_of(const LightSetup& light, const Emission& emission, const glm::dve
 }  // namespace
 
 glm::dvec3 avg_flux(const LightSetup& light) {
-    const double measure = light.map_kind == MAP_ORTHOGRAPHIC
-                               ? 4.0 * static_cast<double>(light.gpu.tangent.w) *
-                                     static_cast<double>(light.gpu.bitangent.w)
-                               : Emission(light).solid_angle();
+    const double measure =
+        light.map_kind == MAP_ORTHOGRAPHIC
+            ? 4.0 * static_cast<double>(light.gpu.tangent.w) * static_cast<double>(light.gpu.bitangent.w)
+            : Emission(light).solid_angle();
     return xyz(light.gpu.intensity) * measure;
 }
 
 std::vector<glm::vec4> avg_numbers(int count) {
-    constexpr std::array<std::array<uint32_t, 2>, k_avg_sequences> bases = {{{3, 5}, {7, 11}, {13, 17}, {19, 23}}};
+    constexpr std::array<std::array<uint32_t, 2>, k_avg_sequences> bases = {
+        {{3, 5}, {7, 11}, {13, 17}, {19, 23}}};
     std::vector<glm::vec4> out;
     out.reserve(static_cast<size_t>(count) * bases.size());
     for (size_t k = 0; k < bases.size(); ++k) {
         for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
             const auto seed = k_place_seed + static_cast<uint32_t>(k) * 0x9e3779b9U;
             const glm::dvec3 rest = scene::sobol_point(i, seed);
-            const glm::dvec4 numbers(radical_inverse(bases[k][0], i), radical_inverse(bases[k][1], i), rest.y, rest.z);
+            const glm::dvec4 numbers(radical_inverse(bases[k][0], i), radical_inverse(bases[k][1], i), rest.y,
+                                     rest.z);
             // A double just below 1 would round up to it.
             out.push_back(glm::min(glm::vec4(numbers), glm::vec4(0.99999994F)));
         }

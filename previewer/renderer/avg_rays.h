@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays that carry the light of the scene's lights into the approximate visibility grid (Bashford-Rogers et al.
-// 2012, III.B): from places on each light, in directions distributed as what it sends. Arithmetic without
+// Rays that carry the light of the scene's lights into the approximate visibility grid (Bashford-Rogers et
+// al. 2012, III.B): from places on each light, in directions distributed as what it sends. Arithmetic without
 // OpenGL.
 #pragma once
 
@@ -27,9 +27,9 @@ struct AvgRayLight {
 [[nodiscard]] std::vector<gpu::GpuAvgRay> avg_rays(std::span<const AvgRayLight> lights,
                                                    const IsmLayout& layout);
 
-// Numbers in [0, 1)^4 for where rays go on: of each of k_avg_sequences bounces `count` of them. The first two are a point of
-// the Halton sequence in two bases of the bounce's own, none of them the 2 of the lights' rays: in one base, where
-// a path turns to would depend on where it came from.
+// Numbers in [0, 1)^4 for where rays go on: of each of k_avg_sequences bounces `count` of them. The first two
+// are a point of the Halton sequence in two bases of the bounce's own, none of them the 2 of the lights'
+// rays: in one base, where a path turns to would depend on where it came from.
 constexpr int k_avg_sequences = 4;
 [[nodiscard]] std::vector<glm::vec4> avg_numbers(int count);
 

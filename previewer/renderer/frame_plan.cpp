@@ -259,10 +259,11 @@ void plan_grid(const Settings& settings, FramePlan& plan) {
     plan.avg = plan.traced || (further && settings.bounce_source == BounceSource::avg);
     if (!plan.avg && settings.technique == Technique::ism) {
         plan.left_out.push_back(
-            {"avg cells", settings.bounce_source == BounceSource::avg
-                              ? "nothing is traced through it: there is no bounce after those of the reflective "
-                                "shadow maps"
-                              : "nothing is traced through it: bounces are not asked for by avg"});
+            {"avg cells",
+             settings.bounce_source == BounceSource::avg
+                 ? "nothing is traced through it: there is no bounce after those of the reflective "
+                   "shadow maps"
+                 : "nothing is traced through it: bounces are not asked for by avg"});
     }
 }
 

@@ -170,7 +170,8 @@ passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, cons
                                const passes::AvgGrid& grid, BouncedLights& lit) {
     using namespace passes;
     if (in.settings.bounce_source == BounceSource::avg) {
-        return add_vpls_from_avg(graph, in.context, trace_inputs(in, grid, static_cast<int>(lit.sets.size())), before, next.lights);
+        return add_vpls_from_avg(graph, in.context, trace_inputs(in, grid, static_cast<int>(lit.sets.size())),
+                                 before, next.lights);
     }
     VplSet maps = irsms;
     maps.vpls = before.vpls;
@@ -227,8 +228,8 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     for (size_t i = 0; i < in.bounces.size(); ++i) {
         if (i == 0 && in.plan.traced) {
             add_lights(graph, in, scene,
-                       add_vpls_from_rays(graph, in.context, trace_inputs(in, grid, k_avg_sequences - 1), *in.avg.rays,
-                                          in.bounces[0].lights),
+                       add_vpls_from_rays(graph, in.context, trace_inputs(in, grid, k_avg_sequences - 1),
+                                          *in.avg.rays, in.bounces[0].lights),
                        lit);
         } else if (i == 0) {
             const DrawnVpls drawn = add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights,
@@ -243,8 +244,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
         }
     }
     add_further_bounces(graph, in, scene, emitted.world, in.world.irsms, in.world_bounces, grid, lit);
-    add_further_bounces(graph, in, scene, emitted.emitters, in.emitters.irsms, in.emitter_bounces, grid,
-                        lit);
+    add_further_bounces(graph, in, scene, emitted.emitters, in.emitters.irsms, in.emitter_bounces, grid, lit);
     return lit;
 }
 

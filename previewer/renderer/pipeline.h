@@ -49,9 +49,9 @@ struct PipelineInputs {
     std::vector<passes::ImperfectMaps> imperfect;
     std::vector<gl::Buffer>* places = nullptr;
     std::vector<BounceStart> bounce_sources;  // in their order, one of each at least
-    gpu::PointStore* points = nullptr;         // where the plan needs them
-    std::vector<Bounce> bounces;               // plan.bounces of them
-    Bounce world;                              // where plan.world_occluded; its lights' buffer:
+    gpu::PointStore* points = nullptr;        // where the plan needs them
+    std::vector<Bounce> bounces;              // plan.bounces of them
+    Bounce world;                             // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
     passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them

@@ -117,8 +117,8 @@ class Renderer {
                                                          const std::vector<Region>& receivers, size_t lights,
                                                          int points, const Settings& settings,
                                                          FramePlan& plan);
-    // The approximate visibility grid of this pose, where it is planned, and what is traced through it: rays of
-    // the lights, which stand at their middles, not at their bounces' places.
+    // The approximate visibility grid of this pose, where it is planned, and what is traced through it: rays
+    // of the lights, which stand at their middles, not at their bounces' places.
     AvgInputs prepare_avg(const std::vector<AvgRayLight>& lights, const Settings& settings,
                           const FramePlan& plan);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);

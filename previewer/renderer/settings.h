@@ -124,7 +124,7 @@ struct Settings {
     int avg_size = 64;  // voxels along the scene's longest side
     AvgHits avg_hits = AvgHits::slabs;
     AvgPaths avg_paths = AvgPaths::roulette;
-    int ism_size = 64;         // texels a side of each map
+    int ism_size = 64;  // texels a side of each map
     int ism_points =
         0;  // points splatted into each map; 0 chooses by the maps' size and the depth complexity
     bool large_triangles = true;         // with disks: what would take many points is drawn as triangles
@@ -163,8 +163,8 @@ struct Settings {
         return technique == Technique::ism && vpl_sampling == VplSampling::avg;
     }
     [[nodiscard]] bool uses_avg() const {
-        return technique == Technique::ism && (vpl_sampling == VplSampling::avg ||
-                                               bounce_source == BounceSource::avg || show == Show::avg);
+        return technique == Technique::ism &&
+               (vpl_sampling == VplSampling::avg || bounce_source == BounceSource::avg || show == Show::avg);
     }
     // Some pass of virtual point lights draws simplified meshes.
     [[nodiscard]] bool simplifies() const {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/avg_layout.h"
 #include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
 #include "renderer/setting_names.h"
@@ -199,6 +200,16 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
                 "driver "
                 "holds {}: lower one of them",
                 settings.used_shadow_samples(), maps.map_size, maps.atlas_width(), limits.texture_size);
+        }
+    }
+    if (refusal.empty() && settings.uses_avg()) {
+        const int most = most_avg_size(limits.storage_block_bytes);
+        if (settings.avg_size > most) {
+            refusal = fmt::format(
+                "--avg-size is {}; this OpenGL driver's buffers of {} MiB hold the surfaces of a grid of {} "
+                "at "
+                "most",
+                settings.avg_size, limits.storage_block_bytes >> 20, most);
         }
     }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;

@@ -121,9 +121,11 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
             {set_up_light(instance, light, gpu_scene.bounds(), gpu_scene.space(), 64, 64), light.pattern});
     }
     const IsmLayout first_layout = ism_layout(settings, 1, 0);
-    const gl::Buffer rays = gl::Buffer::of("rays", std::span<const gpu::GpuAvgRay>(avg_rays(lights, first_layout)));
+    const gl::Buffer rays =
+        gl::Buffer::of("rays", std::span<const gpu::GpuAvgRay>(avg_rays(lights, first_layout)));
     const gl::Buffer numbers = gl::Buffer::of(
-        "numbers", std::span<const glm::vec4>(avg_numbers(std::max(first_layout.vpls, ism_layout(settings, 2, 0).vpls))));
+        "numbers", std::span<const glm::vec4>(
+                       avg_numbers(std::max(first_layout.vpls, ism_layout(settings, 2, 0).vpls))));
     std::vector<passes::VplSet> sets;
     for (int bounce = 1; bounce <= settings.bounces && !lights.empty(); ++bounce) {
         const IsmLayout layout = ism_layout(settings, bounce, 0);
@@ -135,11 +137,11 @@ inline Traced trace(const scene::Scene& scene, const Settings& settings, double 
         set.subset = layout.subset;
         set.cell_columns = layout.cell_columns;
         set.uniforms = uniforms.add(ism_uniforms(layout, settings, 0, 0.0));
-        const passes::AvgTraceInputs inputs{grid, settings.avg_hits, settings.avg_paths, &numbers, k_avg_sequences, bounce,
-                                            settings.glossy_bounces};
-        sets.push_back(bounce == 1
-                           ? passes::add_vpls_from_rays(graph, context, inputs, rays, set)
-                           : passes::add_vpls_from_avg(graph, context, inputs, sets.back(), set));
+        const passes::AvgTraceInputs inputs{
+            grid,   settings.avg_hits,      settings.avg_paths, &numbers, k_avg_sequences,
+            bounce, settings.glossy_bounces};
+        sets.push_back(bounce == 1 ? passes::add_vpls_from_rays(graph, context, inputs, rays, set)
+                                   : passes::add_vpls_from_avg(graph, context, inputs, sets.back(), set));
     }
     graph.add_pass("read back", [&](PassBuilder& builder) {
         builder.read(grid.cells);

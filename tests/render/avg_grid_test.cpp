@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The approximate visibility grid: no part of a surface is missing from it, and what it holds is the surface's.
+// The approximate visibility grid: no part of a surface is missing from it, and what it holds is the
+// surface's.
 #include <bit>
 #include <cstring>
 
@@ -25,7 +26,8 @@ class AvgGridOf : public ::testing::Test {
         double sum = 0.0;
         for (size_t i = 0; i < corners.size(); i += 3) {
             const glm::dvec3 a(corners[i]);
-            sum += 0.5 * glm::length(glm::cross(glm::dvec3(corners[i + 1]) - a, glm::dvec3(corners[i + 2]) - a));
+            sum +=
+                0.5 * glm::length(glm::cross(glm::dvec3(corners[i + 1]) - a, glm::dvec3(corners[i + 2]) - a));
         }
         return sum;
     }
@@ -121,7 +123,8 @@ TEST_F(AvgGridOf, ATriangleThatRoundingThinsToALineIsInAllItsVoxels) {
                 grid.voxels(glm::mix(glm::dvec3(corners[i]), glm::dvec3(corners[i + 1]), t));
             const glm::dvec3 inside = at - glm::floor(at);
             // Not within rounding of a voxel's side.
-            if (std::min({inside.x, inside.y, inside.z}) > 2e-3 && std::max({inside.x, inside.y, inside.z}) < 0.998) {
+            if (std::min({inside.x, inside.y, inside.z}) > 2e-3 &&
+                std::max({inside.x, inside.y, inside.z}) < 0.998) {
                 EXPECT_NE(grid.word(glm::ivec3(glm::floor(at))), 0U) << "triangle " << i / 3 << " at " << t;
             }
         }
@@ -129,8 +132,8 @@ TEST_F(AvgGridOf, ATriangleThatRoundingThinsToALineIsInAllItsVoxels) {
 }
 
 TEST_F(AvgGridOf, SurfacesHasTheirArea) {
-    // Voxels reach into each other by 1/4096 on each side, so a plane counts (1 + 2/4096)^2 times: 0.1 %; and its
-    // edges somewhat more.
+    // Voxels reach into each other by 1/4096 on each side, so a plane counts (1 + 2/4096)^2 times: 0.1 %; and
+    // its edges somewhat more.
     std::vector<glm::vec3> one = {{-1.0F, -0.8F, -0.9F}, {1.0F, -0.3F, 0.2F}, {-0.2F, 0.9F, 1.0F}};
     EXPECT_NEAR(trace(scene_of(one), traced(64)).grid.area_m2() / area_of(one), 1.0, 0.002) << "one triangle";
     const std::vector<glm::vec3> specks = box_triangles(glm::vec3(1.0F, 0.7F, 0.5F), 150);
@@ -156,7 +159,8 @@ TEST_F(AvgGridOf, WallsOfABoxHasFlatSlabsAndTheirColour) {
         }
         EXPECT_EQ(surface.tensor_rest.w, 1.0F) << "no hole";
     }
-    // Three walls' normals point along different axes, so that not even where they meet are two of them one surface.
+    // Three walls' normals point along different axes, so that not even where they meet are two of them one
+    // surface.
     EXPECT_EQ(flat, all);
 }
 
@@ -186,16 +190,16 @@ TEST_F(AvgGridOf, TheSameTrianglesInAnyOrderAreTheSameBits) {
         return out;
     };
     for (const int count : {300, 6000}) {  // of the latter there is not room for all
-    const std::vector<glm::vec3> corners = all_shapes(count);
-    const auto first = bits(trace(scene_of(corners), traced(32)).grid.sorted());
-    EXPECT_TRUE(first == bits(trace(scene_of(corners), traced(32)).grid.sorted()));
-    // Triangle by triangle backwards; the scene has its bounds from the same corners.
-    std::vector<glm::vec3> backwards;
-    for (size_t i = corners.size(); i >= 3; i -= 3) {
-        backwards.insert(backwards.end(), {corners[i - 3], corners[i - 2], corners[i - 1]});
-    }
-    EXPECT_TRUE(first == bits(trace(scene_of(backwards), traced(32)).grid.sorted()));
-    EXPECT_GT(first.size(), 1000 * sizeof(gpu::GpuAvgVoxel));
+        const std::vector<glm::vec3> corners = all_shapes(count);
+        const auto first = bits(trace(scene_of(corners), traced(32)).grid.sorted());
+        EXPECT_TRUE(first == bits(trace(scene_of(corners), traced(32)).grid.sorted()));
+        // Triangle by triangle backwards; the scene has its bounds from the same corners.
+        std::vector<glm::vec3> backwards;
+        for (size_t i = corners.size(); i >= 3; i -= 3) {
+            backwards.insert(backwards.end(), {corners[i - 3], corners[i - 2], corners[i - 1]});
+        }
+        EXPECT_TRUE(first == bits(trace(scene_of(backwards), traced(32)).grid.sorted()));
+        EXPECT_GT(first.size(), 1000 * sizeof(gpu::GpuAvgVoxel));
     }
 }
 
@@ -231,7 +235,8 @@ TEST_F(AvgGridOf, ATextureHasItsMeanOverEachVoxel) {
         512,
         [](int x, int) -> std::array<uint8_t, 4> {
             if (x >= 256) return {255, 0, 0, 255};
-            return x % 2 == 0 ? std::array<uint8_t, 4>{255, 255, 255, 255} : std::array<uint8_t, 4>{0, 0, 0, 255};
+            return x % 2 == 0 ? std::array<uint8_t, 4>{255, 255, 255, 255}
+                              : std::array<uint8_t, 4>{0, 0, 0, 255};
         },
         scene::AlphaMode::opaque);
     const ReadGrid grid = trace(scene, traced(32)).grid;
@@ -293,7 +298,8 @@ TEST_F(AvgGridOf, MoreSurfacesThanThereIsRoomForAreStillThere) {
         const glm::dvec3 at = grid.voxels(glm::dvec3(corners[i] + corners[i + 1] + corners[i + 2]) / 3.0);
         EXPECT_NE(grid.word(glm::ivec3(glm::floor(at))), 0U);
     }
-    EXPECT_GE(grid.surfaces.back().slab.y, 2 * static_cast<int>(AVG_SLAB_STEPS) - 1) << "anywhere in its voxels";
+    EXPECT_GE(grid.surfaces.back().slab.y, 2 * static_cast<int>(AVG_SLAB_STEPS) - 1)
+        << "anywhere in its voxels";
 }
 
 TEST_F(AvgGridOf, AMovingThingStaysOnTheSameLattice) {

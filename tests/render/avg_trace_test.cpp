@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Light traced through the approximate visibility grid: none is lost or made, and none passes a surface.
+#include <cstring>
+
 #include "avg_fixture.h"
+#include "renderer/settings_check.h"
 
 namespace bounce::test {
 namespace {
@@ -15,7 +18,8 @@ class AvgTrace : public ::testing::Test {
                             const scene::Light& light, const glm::dmat4& light_at) {
         scene::Scene scene;
         scene.from_blender = true;
-        add_mesh_node(scene, add_triangles(scene, box_triangles(glm::vec3(1.0F), n), add_diffuse(scene, albedo)),
+        add_mesh_node(scene,
+                      add_triangles(scene, box_triangles(glm::vec3(1.0F), n), add_diffuse(scene, albedo)),
                       turned);
         add_light(scene, light, turned * light_at);
         return scene;
@@ -28,8 +32,8 @@ class AvgTrace : public ::testing::Test {
         for (const auto& bounce : traced_.bounces) {
             for (const gpu::GpuVpl& vpl : bounce) {
                 if (!is_dark(vpl)) {
-                    const glm::dvec3 at = glm::abs(
-                        glm::dvec3(glm::inverse(turned) * glm::dvec4(traced_.place(vpl), 1.0)));
+                    const glm::dvec3 at =
+                        glm::abs(glm::dvec3(glm::inverse(turned) * glm::dvec4(traced_.place(vpl), 1.0)));
                     most = std::max({most, at.x, at.y, at.z});
                 }
             }
@@ -57,8 +61,8 @@ TEST_F(AvgTrace, OfAFurnaceKeepsAllLightButWhatWallsTake) {
                 for (int c = 0; c < 3; ++c) {
                     // Every ray ends in the same colour, so that there is no noise: rounding alone.
                     EXPECT_NEAR(flux[c] / expected[c], 1.0, 1e-4)
-                        << "bounce " << k + 1 << ", channel " << c << ", turned by " << degrees
-                        << ", paths " << static_cast<int>(paths);
+                        << "bounce " << k + 1 << ", channel " << c << ", turned by " << degrees << ", paths "
+                        << static_cast<int>(paths);
                 }
                 EXPECT_EQ(dark(result.bounces[k]), 0);
             }
@@ -66,8 +70,8 @@ TEST_F(AvgTrace, OfAFurnaceKeepsAllLightButWhatWallsTake) {
     }
 }
 
-// Flux that the walls of a box of half side 1 reflect of each bounce, W, of 100 W from its middle: paths of random
-// directions, whose ends on the box are exact. albedo: of each wall, 2 * axis + side.
+// Flux that the walls of a box of half side 1 reflect of each bounce, W, of 100 W from its middle: paths of
+// random directions, whose ends on the box are exact. albedo: of each wall, 2 * axis + side.
 std::array<double, 3> paths_in_a_box(const std::array<double, 6>& albedo, int paths) {
     std::mt19937 random(17);
     std::uniform_real_distribution<double> part(0.0, 1.0);
@@ -148,7 +152,8 @@ TEST_F(AvgTrace, LetsNoLightThroughWallsThinnerThanAVoxel) {
             // 64 voxels along more than 4 m.
             add_mesh_node(scene, add_triangles(scene, box_triangles(glm::vec3(1.0F), 1), white), turned);
             add_mesh_node(scene, add_triangles(scene, box_triangles(glm::vec3(1.006F), 1), white), turned);
-            add_light(scene, point(), turned * moved(inside ? glm::dvec3(0.3, -0.4, 0.6) : glm::dvec3(1.5, 0.3, -1.2)));
+            add_light(scene, point(),
+                      turned * moved(inside ? glm::dvec3(0.3, -0.4, 0.6) : glm::dvec3(1.5, 0.3, -1.2)));
             const Traced result = trace(scene, traced(64, 4, 2048));
             int wrong = 0;
             for (const auto& bounce : result.bounces) {
@@ -168,16 +173,16 @@ TEST_F(AvgTrace, LetsNoLightThroughWallsThinnerThanAVoxel) {
 
 TEST_F(AvgTrace, LightOutsideOfABoxIsNotInIt) {
     for (const scene::LightType type : {scene::LightType::point, scene::LightType::sun}) {
-        scene::Scene scene = box(glm::vec3(0.9F), 5, rotated(31.0, {1.0, 0.4, 0.3}), point(),
-                                 moved({1.7, 1.2, 1.9}));
+        scene::Scene scene =
+            box(glm::vec3(0.9F), 5, rotated(31.0, {1.0, 0.4, 0.3}), point(), moved({1.7, 1.2, 1.9}));
         scene.lights[0] = light_of(type);
         const Traced result = trace(scene, traced(32, 3, 2048));
         int lit = 0;
         for (const auto& bounce : result.bounces) {
             for (const gpu::GpuVpl& vpl : bounce) {
                 if (is_dark(vpl)) continue;
-                const glm::dvec3 at = glm::abs(glm::dvec3(
-                    glm::inverse(rotated(31.0, {1.0, 0.4, 0.3})) * glm::dvec4(result.place(vpl), 1.0)));
+                const glm::dvec3 at = glm::abs(glm::dvec3(glm::inverse(rotated(31.0, {1.0, 0.4, 0.3})) *
+                                                          glm::dvec4(result.place(vpl), 1.0)));
                 ++lit;
                 EXPECT_GE(std::max({at.x, at.y, at.z}), 1.0);
             }
@@ -196,17 +201,18 @@ TEST_F(AvgTrace, LightsStandOnTheSurfacesTheyAreOf) {
             const glm::dvec3 a = glm::abs(at);
             const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
             EXPECT_NEAR(a[axis], 1.0, 1e-4) << "in front of the wall by less than a thousandth of a voxel";
-            const glm::dvec3 n =
-                glm::transpose(glm::dmat3(turned)) * glm::dvec3(glm::vec3(vpl.normal));
+            const glm::dvec3 n = glm::transpose(glm::dmat3(turned)) * glm::dvec3(glm::vec3(vpl.normal));
             EXPECT_NEAR(n[axis], at[axis] > 0.0 ? -1.0 : 1.0, 1e-3) << "and faces into the room";
         }
     }
 }
 
 TEST_F(AvgTrace, AFloorDoesNotStopRaysThatLeaveIt) {
-    // Of what a floor below a roof sends up, all goes to the roof and the walls: nothing back to the floor itself.
-    const Traced slabs = trace(box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)),
-                               traced(64, 2, 4096));
+    // Of what a floor below a roof sends up, all goes to the roof and the walls: nothing back to the floor
+    // itself.
+    const Traced slabs =
+        trace(box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)),
+              traced(64, 2, 4096));
     const auto wall_of = [&](const gpu::GpuVpl& vpl) {
         const glm::dvec3 at =
             glm::dvec3(glm::inverse(rotated(12.0, {0.4, 1.0, 0.3})) * glm::dvec4(slabs.place(vpl), 1.0));
@@ -225,16 +231,16 @@ TEST_F(AvgTrace, AFloorDoesNotStopRaysThatLeaveIt) {
     Settings settings = traced(64, 2, 4096);
     settings.avg_paths = AvgPaths::fixed;
     settings.interleave = 1;
-    const Traced paths = trace(
-        box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)), settings);
+    const Traced paths =
+        trace(box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)), settings);
     int same = 0;
     for (size_t i = 0; i < 4096; ++i) {
         same += wall_of(paths.bounces[0][i]) == wall_of(paths.bounces[1][i]) ? 1 : 0;
     }
     EXPECT_EQ(same, 0);
     settings.avg_hits = AvgHits::voxels;
-    const Traced voxels = trace(
-        box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)), settings);
+    const Traced voxels =
+        trace(box(glm::vec3(0.9F), 1, rotated(12.0, {0.4, 1.0, 0.3}), point(), glm::dmat4(1.0)), settings);
     int stuck = 0;
     for (size_t i = 0; i < 4096; ++i) {
         stuck += wall_of(voxels.bounces[0][i]) == wall_of(voxels.bounces[1][i]) ? 1 : 0;
@@ -317,6 +323,65 @@ TEST_F(AvgTrace, APictureOfAFurnaceIsAGeometricSeries) {
     }
 }
 
+TEST_F(AvgTrace, RaysOfEachKindOfLightHaveItsFlux) {
+    // Solid angles of the profiles in closed form: a sphere; a cone with a hard edge; Lambert's hemisphere,
+    // whose slats keep the power.
+    scene::Light spot = light_of(scene::LightType::spot);
+    spot.profile = scene::SpotProfile::cycles_4;
+    spot.blend = 0.0F;
+    scene::Light area = light_of(scene::LightType::area);
+    scene::Light box = area;
+    box.spread_rad = 0.6F;
+    const scene::Bounds bounds{glm::dvec3(-1.0), glm::dvec3(1.0)};
+    const gpu::RenderSpace space = gpu::RenderSpace::around(bounds);
+    scene::LightInstance at{};
+    at.world_from_light = moved({0.0, 0.0, 0.5});
+    const auto setup = [&](const scene::Light& light) {
+        return set_up_light(at, light, bounds, space, 64, 64);
+    };
+    const double scale = space.scale * space.scale;
+    const double cone = 2.0 * pi * (1.0 - std::cos(0.6));
+    EXPECT_NEAR(avg_flux(setup(point())).g / (100.0 * scale), 1.0, 1e-5);
+    EXPECT_NEAR(avg_flux(setup(spot)).g / (100.0 / (4.0 * pi) * cone * scale), 1.0, 1e-3);
+    EXPECT_NEAR(avg_flux(setup(area)).g / (25.0 * pi * scale), 1.0, 1e-4);
+    EXPECT_NEAR(avg_flux(setup(box)).g / (25.0 * pi * scale), 1.0, 1e-3);
+    for (const scene::Light& light : {point(), spot, area, box, light_of(scene::LightType::sun)}) {
+        const LightSetup of = setup(light);
+        const std::vector<AvgRayLight> lights = {{of, {}}};
+        const IsmLayout layout = ism_layout(traced(64, 1, 1000), 1, 0);
+        glm::dvec3 sum(0.0);
+        double along = 0.0;
+        for (const gpu::GpuAvgRay& ray : avg_rays(lights, layout)) {
+            sum += glm::dvec3(glm::vec3(ray.flux));
+            EXPECT_NEAR(glm::length(glm::vec3(ray.direction)), 1.0F, 1e-5F);
+            along = std::max(along, std::acos(std::min(1.0, glm::dot(glm::dvec3(glm::vec3(ray.direction)),
+                                                                     glm::dvec3(glm::vec3(of.gpu.axis))))));
+        }
+        EXPECT_NEAR(sum.g / avg_flux(of).g, 1.0, 1e-5);
+        if (light.type == scene::LightType::spot) {
+            EXPECT_LE(along, 0.6 + 1e-4) << "within the cone";
+            EXPECT_GT(along, 0.57);
+        }
+        if (light.spread_rad == 0.6F && light.type == scene::LightType::area) {
+            EXPECT_LE(along, 0.3 + 1e-3) << "between the slats";
+        }
+    }
+}
+
+TEST_F(AvgTrace, AGridThatBuffersDoNotHoldIsRefused) {
+    Settings settings = traced(256);
+    settings.visibility = Visibility::none;
+    settings.world_vpls = settings.emitter_vpls = 0;
+    gl::DeviceLimits limits;
+    EXPECT_EQ(limits_refusal(settings, limits), "");
+    limits.storage_block_bytes = 16 << 20;
+    EXPECT_NE(limits_refusal(settings, limits).find("--avg-size is 256"), std::string::npos);
+    settings.avg_size = 128;
+    EXPECT_EQ(limits_refusal(settings, limits), "");
+    settings.avg_size = 31;
+    EXPECT_NE(settings_refusal(settings).find("--avg-size is 31"), std::string::npos);
+}
+
 TEST_F(AvgTrace, RunsItsPassesAndNoMore) {
     scene::Scene scene = corner_scene();
     add_wall_spot(scene);
@@ -328,14 +393,17 @@ TEST_F(AvgTrace, RunsItsPassesAndNoMore) {
     settings.bounces = 2;
     settings.bounce_source = BounceSource::avg;
     using Passes = std::vector<std::string>;
-    EXPECT_EQ(draw(scene, floor_camera(), settings).report.executed,
-              (Passes{"gbuffer", "rsm: Spot", "avg cells", "avg voxels", "avg slabs", "vpl importance", "vpls",
-                      "avg flux", "avg trace, next bounce", "vpl spacing", "vpl gather", "composite"}));
+    EXPECT_EQ(
+        draw(scene, floor_camera(), settings).report.executed,
+        (Passes{"gbuffer", "rsm: Spot", "avg cells", "avg voxels", "avg slabs", "vpl importance", "vpls",
+                "avg flux", "avg trace, next bounce", "vpl spacing", "vpl gather", "composite"}));
     settings.bounces = 1;
     const FrameReport one = draw(scene, floor_camera(), settings).report;
-    EXPECT_EQ(one.executed, (Passes{"gbuffer", "rsm: Spot", "vpl importance", "vpls", "vpl gather", "composite"}));
-    EXPECT_TRUE(std::any_of(one.left_out.begin(), one.left_out.end(),
-                            [](const LeftOut& out) { return out.pass == "avg cells" && !out.reason.empty(); }));
+    EXPECT_EQ(one.executed,
+              (Passes{"gbuffer", "rsm: Spot", "vpl importance", "vpls", "vpl gather", "composite"}));
+    EXPECT_TRUE(std::any_of(one.left_out.begin(), one.left_out.end(), [](const LeftOut& out) {
+        return out.pass == "avg cells" && !out.reason.empty();
+    }));
     settings.vpl_sampling = VplSampling::avg;
     EXPECT_EQ(draw(scene, floor_camera(), settings).report.executed,
               (Passes{"gbuffer", "avg cells", "avg voxels", "avg slabs", "avg trace", "vpl spacing",
