@@ -92,6 +92,11 @@ const std::vector<Experiment>& experiments() {
          "error and time of preset lv2009 against map size (Figure 6 of 2009)", measure_simplified_map_sizes},
         {"lv-fig7", "Error against pixel lights",
          "error and time of preset lv2009 against lights (Figure 7 of 2009)", measure_pixel_lights},
+        {"avg-table1", "Stages of approximate visibility grids",
+         "time of each stage of preset avg2012 against the scene's triangles (Table I of 2012)",
+         measure_avg_stages},
+        {"avg-table2", "Approximate visibility grids against screen size",
+         "frames a second of preset avg2012 against screen size (Table II of 2012)", measure_avg_screens},
     };
     return all;
 }

@@ -57,9 +57,8 @@ scene::Primitive box(const glm::vec3& low, const glm::vec3& high, bool inward) {
     return out;
 }
 
-// segments around, half as many from pole to pole.
-scene::Primitive unit_sphere(int segments) {
-    const int rings = segments / 2;
+// segments: around; rings: from pole to pole.
+scene::Primitive unit_sphere(int segments, int rings) {
     scene::Primitive out;
     for (int ring = 0; ring <= rings; ++ring) {
         const double theta = std::numbers::pi * ring / rings;
@@ -74,7 +73,7 @@ scene::Primitive unit_sphere(int segments) {
     for (int ring = 0; ring < rings; ++ring) {
         for (int segment = 0; segment < segments; ++segment) {
             const auto upper = static_cast<uint32_t>(ring * (segments + 1) + segment);
-            const uint32_t lower = upper + static_cast<uint32_t>(segments) + 1;
+            const auto lower = static_cast<uint32_t>(upper + segments + 1);
             out.indices.insert(out.indices.end(), {upper, lower, lower + 1, upper, lower + 1, upper + 1});
         }
     }
@@ -127,8 +126,8 @@ scene::Scene make_room(int segments) {
     add_mesh_node(scene, "Screen",
                   add_mesh(scene, "screen", box({-0.6F, 0.0F, -0.5F}, {-0.5F, 2.2F, 1.2F}, false), white));
 
-    const int ball = add_mesh(scene, "ball", unit_sphere(segments), white);
-    const int blue_ball = add_mesh(scene, "blue ball", unit_sphere(segments), blue);
+    const int ball = add_mesh(scene, "ball", unit_sphere(segments, segments / 2), white);
+    const int blue_ball = add_mesh(scene, "blue ball", unit_sphere(segments, segments / 2), blue);
     for (int i = 0; i < 12; ++i) {
         const double size = 0.18 + 0.06 * (i % 4);
         const glm::dvec3 place(-2.5 + 1.0 * (i % 6), i < 6 ? size : 1.4 + 0.2 * (i % 3),

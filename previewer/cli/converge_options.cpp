@@ -76,6 +76,10 @@ void ConvergeOptions::check(const Settings& settings) const {
             "give direct or "
             "ism");
     }
+    if (settings.traces_first()) {
+        throw usage_error(
+            "--vpl-sampling avg sends the same rays in every pass, which --converge would not make better; give another");
+    }
     if (settings.temporal_reuse) {
         throw usage_error(
             "--temporal-reuse takes light of the frame before, which --converge does not need; give one of "

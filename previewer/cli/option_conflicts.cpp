@@ -48,6 +48,13 @@ const char* bounce_option(const RenderOptions& o) {
         {{"--bounce-vpls", o.bounce_vpls.has_value()}, {"--bounce-source", o.bounce_source.has_value()}});
 }
 
+// Options of the approximate visibility grid.
+const char* avg_option(const RenderOptions& o) {
+    return first_given({{"--avg-size", o.avg_size.has_value()},
+                        {"--avg-hits", o.avg_hits.has_value()},
+                        {"--avg-paths", o.avg_paths.has_value()}});
+}
+
 // Imperfect maps of lights with a size are drawn as those of virtual point lights are, in any technique.
 const char* vpl_option(const RenderOptions& o, const Settings& s) {
     const char* maps = first_given({{"--visibility", o.visibility.has_value()},
@@ -63,7 +70,7 @@ const char* vpl_option(const RenderOptions& o, const Settings& s) {
                                       {"--near-field", o.near_field.has_value()},
                                       {"--glossy", o.glossy.has_value()}});
     const char* splats = s.direct_shadows == DirectShadows::ism ? nullptr : splat_option(o);
-    for (const char* option : {lights, maps, splats, bounce_option(o)}) {
+    for (const char* option : {lights, maps, splats, bounce_option(o), avg_option(o)}) {
         if (option != nullptr) {
             return option;
         }
@@ -107,6 +114,25 @@ std::string shadow_conflict(const RenderOptions& o, const Settings& s) {
         return fmt::format(
             "--convolution-order has no effect with --direct-shadows {}; give --direct-shadows convolution",
             name_of(s.direct_shadows));
+    }
+    return {};
+}
+
+std::string avg_conflict(const RenderOptions& o, const Settings& s) {
+    if (s.technique != Technique::ism) {
+        return {};
+    }
+    if (const char* option = avg_option(o); option != nullptr && !s.uses_avg()) {
+        return fmt::format(
+            "{} has no effect without the approximate visibility grid; give --bounce-source avg, or "
+            "--vpl-sampling avg",
+            option);
+    }
+    if (o.avg_paths && s.bounces == 1 && s.world_vpls == 0 && s.emitter_vpls == 0) {
+        return "--avg-paths is of further bounces; give --bounces 2 or more";
+    }
+    if (o.near_field.value_or(false) && s.traces_first()) {
+        return "--near-field on gathers from reflective shadow maps, which --vpl-sampling avg does without";
     }
     return {};
 }
@@ -242,8 +268,8 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
     for (std::string conflict :
-         {technique_conflict(o, s), shadow_conflict(o, s), emitter_conflict(o, s), bounce_conflict(o, s),
-          layer_conflict(o, s), samples_conflict(o, s), reuse_conflict(o, s)}) {
+         {technique_conflict(o, s), shadow_conflict(o, s), avg_conflict(o, s), emitter_conflict(o, s),
+          bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s), reuse_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

@@ -25,12 +25,12 @@ const std::map<std::string, Preset>& presets() {
     static const std::map<std::string, Preset> names = {{"auto", Preset::automatic},
                                                         {"rsm2005", Preset::rsm2005},
                                                         {"ism2008", Preset::ism2008},
-                                                        {"lv2009", Preset::lv2009}};
+                                                        {"lv2009", Preset::lv2009},
+                                                        {"avg2012", Preset::avg2012}};
     return names;
 }
 
-// splat_irsms and drop_hull by name.
-const std::map<std::string, bool> k_bounce_sources = {{"points", false}, {"irsm", true}};
+// drop_hull by name.
 const std::map<std::string, bool> k_hulls = {{"drop", true}, {"splat", false}};
 
 // Options that take one of a few names, or on and off, in a group of the help.
@@ -89,15 +89,29 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
     group.number("--bounce-vpls", o.bounce_vpls,
                  fmt::format("Virtual point lights of each further bounce, 1 to {}", k_most_vpls),
                  std::to_string(d.bounce_vpls));
-    group.one_of("--bounce-source", o.bounce_source, k_bounce_sources,
-                 "What lights of further bounces are drawn from: points that the bounce before lights, or "
-                 "these points "
-                 "splatted into imperfect reflective shadow maps, as in the 2008 paper",
-                 "points");
+    group.one_of("--bounce-source,--bounces-by", o.bounce_source, setting_names<BounceSource>(),
+                 "What lights of further bounces are drawn from: points that the bounce before lights; irsm: "
+                 "these points splatted into imperfect reflective shadow maps, as in the 2008 paper; avg: "
+                 "where rays from the lights before meet the approximate visibility grid, as in the 2012 "
+                 "paper",
+                 name_of(d.bounce_source));
+    group.number("--avg-size", o.avg_size,
+                 fmt::format("Voxels of that grid along the scene's longest side, {} to {}", k_least_avg_size,
+                             k_most_avg_size),
+                 std::to_string(d.avg_size));
+    group.one_of("--avg-hits", o.avg_hits, setting_names<AvgHits>(),
+                 "Where a ray through it ends: slabs: where it enters what bounds a voxel's surface; voxels: "
+                 "in the first voxel that holds one, some way into it, as in the 2012 paper",
+                 name_of(d.avg_hits));
+    group.one_of("--avg-paths", o.avg_paths, setting_names<AvgPaths>(),
+                 "How rays of a bounce are shared out among the lights before: roulette: by what they "
+                 "reflect; fixed: evenly, each weighed by what its light reflects",
+                 name_of(d.avg_paths));
     group.one_of(
         "--vpl-sampling", o.vpl_sampling, setting_names<VplSampling>(),
         "How those of the first bounce are drawn from the reflective shadow maps: one for each cell of "
-        "equal flux, or texels at the points of the Halton sequence, as in the 2009 paper",
+        "equal flux, or texels at the points of the Halton sequence, as in the 2009 paper; avg: without "
+        "these maps, where rays from the lights meet the approximate visibility grid, as in the 2012 paper",
         name_of(d.vpl_sampling));
     group.one_of(
         "--shading", o.shading, setting_names<Shading>(),
@@ -389,7 +403,10 @@ Settings RenderOptions::settings_without_scene() const {
     set(emitter_vpls, out.emitter_vpls);
     set(emitter_panels, out.emitter_panels);
     set(bounce_places, out.bounce_places);
-    set(bounce_source, k_bounce_sources, out.splat_irsms);
+    set(bounce_source, setting_names<BounceSource>(), out.bounce_source);
+    set(avg_size, out.avg_size);
+    set(avg_hits, setting_names<AvgHits>(), out.avg_hits);
+    set(avg_paths, setting_names<AvgPaths>(), out.avg_paths);
     set(interleave, out.interleave);
     set(vpl_sampling, setting_names<VplSampling>(), out.vpl_sampling);
     set(shading, setting_names<Shading>(), out.shading);

@@ -48,6 +48,9 @@ struct RenderOptions {
     std::optional<bool> near_field;
     std::optional<bool> glossy;
     std::optional<std::string> bounce_source;
+    std::optional<int> avg_size;
+    std::optional<std::string> avg_hits;
+    std::optional<std::string> avg_paths;
     std::optional<std::string> vpl_sampling;
     std::optional<std::string> shading;
     std::optional<std::string> simplify;  // a number, or auto

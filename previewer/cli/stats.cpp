@@ -175,7 +175,12 @@ ordered_json settings_json(const Settings& s) {
     out["bounces"] = s.bounces;
     if (s.bounces > 1) {
         out["bounce_vpls"] = s.bounce_vpls;
-        out["bounce_source"] = s.splat_irsms ? "irsm" : "points";
+        out["bounce_source"] = name_of(s.bounce_source);
+    }
+    if (s.uses_avg()) {
+        out["avg_size"] = s.avg_size;
+        out["avg_hits"] = name_of(s.avg_hits);
+        out["avg_paths"] = name_of(s.avg_paths);
     }
     out["interleave"] = s.interleave;
     out["temporal_reuse"] = s.temporal_reuse;

@@ -51,7 +51,8 @@ const std::vector<SweepAxis>& sweep_axes() {
           {"rsm2005", {"--preset", "rsm2005"}, SweepPoint::k_one},
           {"ism2008", {"--preset", "ism2008"}},
           {"lv2009", {"--preset", "lv2009"}},
-          {"lv2009, hybrid", {"--preset", "lv2009", "--shading", "hybrid"}}}},
+          {"lv2009, hybrid", {"--preset", "lv2009", "--shading", "hybrid"}},
+          {"avg2012", {"--preset", "avg2012"}}}},
         {"technique",
          "Technique",
          "how light is carried: --technique",
@@ -87,6 +88,14 @@ const std::vector<SweepAxis>& sweep_axes() {
           {"2 bounces", {"--technique", "ism"}, 2},
           {"3 bounces", {"--technique", "ism"}, 3},
           {"4 bounces", {"--technique", "ism"}, 4}}},
+        {"bounces-by",
+         "Bounces by",
+         "what lights of further bounces are drawn from: --bounce-source, --vpl-sampling",
+         {{"points", {"--bounce-source", "points"}},
+          {"imperfect RSMs", {"--bounce-source", "irsm"}},
+          {"grid", {"--bounce-source", "avg"}},
+          {"grid, as in 2012", {"--bounce-source", "avg", "--avg-hits", "voxels", "--avg-paths", "fixed"}},
+          {"grid, from the lights on", {"--bounce-source", "avg", "--vpl-sampling", "avg"}}}},
         {"visibility",
          "Visibility",
          "what hides the lights: --visibility",
@@ -107,6 +116,7 @@ const std::vector<SweepAxis>& sweep_axes() {
          "where in the reflective shadow map lights are taken from: --vpl-sampling, --rsm-pattern",
          {{"drawn by importance", {"--technique", "ism"}},
           {"uniform, by Halton", {"--vpl-sampling", "uniform"}},
+          {"traced through the grid", {"--vpl-sampling", "avg"}},
           {"uniform radius", {"--technique", "rsm", "--rsm-pattern", "uniform-radius"}, SweepPoint::k_one},
           {"inverse square", {"--technique", "rsm", "--rsm-pattern", "inverse-square"}, SweepPoint::k_one},
           {"the paper's to the letter",
@@ -191,9 +201,14 @@ std::vector<PreviewRun> sweep_runs(const std::vector<std::string>& names, int bo
             "which "
             "has the most bounces");
     }
+    if (named("bounces-by") && bounces < 2) {
+        throw usage_error(
+            "--sweep bounces-by needs --bounces 2 or more: what it varies is of further bounces");
+    }
     std::vector<PreviewRun> runs;
     for (const SweepAxis& axis : sweep_axes()) {
-        const bool in_all = axis.part_of_all && (axis.name != "bounces" || bounces > 1);
+        const bool of_further = axis.name == "bounces" || axis.name == "bounces-by";
+        const bool in_all = axis.part_of_all && (!of_further || bounces > 1);
         if (!named(axis.name) && !(named("all") && in_all)) {
             continue;
         }

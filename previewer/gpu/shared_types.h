@@ -31,6 +31,9 @@ static_assert(sizeof(GpuEmitterSource) == 3 * k_row);
 static_assert(sizeof(GpuPointSurface) == 4 * k_row);
 static_assert(sizeof(GpuPatchPiece) == 2 * k_row);
 static_assert(sizeof(GpuPieceCommand) == k_row);
+static_assert(sizeof(AvgUniforms) == 3 * k_row);
+static_assert(sizeof(GpuAvgVoxel) == 6 * k_row);
+static_assert(sizeof(GpuAvgRay) == 4 * k_row);
 static_assert(sizeof(DeformJob) == 3 * k_row);
 
 }  // namespace bounce::gpu

@@ -197,6 +197,14 @@ void VertexStore::create(Builder& build) {
     }
 }
 
+void VertexStore::bind_for_grid() const {
+    positions_.bind_storage(SSBO_AVG_POSITIONS);
+    indices_.bind_storage(SSBO_AVG_INDICES);
+    if (uv0_) uv0_.bind_storage(SSBO_AVG_UV0);
+    if (uv1_) uv1_.bind_storage(SSBO_AVG_UV1);
+    if (colors_) colors_.bind_storage(SSBO_AVG_COLORS);
+}
+
 void VertexStore::set_simplified(const scene::SimplifiedMeshes& meshes) {
     simplified_.clear();
     std::vector<uint32_t> added;

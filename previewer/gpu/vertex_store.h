@@ -53,6 +53,8 @@ class VertexStore {
     // Instance attribute with the draw's index, from 0 up to the count it was made for.
     void set_draw_ids(const gl::Buffer& ids) const;
     void bind_for_deform() const;
+    // All streams but tangents, for shaders/lib/avg_triangle.glsl; what the scene lacks is left as it is.
+    void bind_for_grid() const;
     // Three floats a vertex: model space, and of deformed vertices what the deform pass wrote.
     [[nodiscard]] const gl::Buffer& positions() const { return positions_; }
     // Of primitives' triangles, counted from their base vertices (PrimitiveRange).

@@ -8,6 +8,26 @@ namespace bounce::passes {
 enum class VplSampling {
     inverse_transform,  // one for each cell of equal flux
     uniform,            // texels at the points of the Halton sequence (Lv et al. 2009)
+    avg,                // where rays from the lights meet the grid (Bashford-Rogers et al. 2012)
+};
+
+// What those of further bounces are drawn from.
+enum class BounceSource {
+    points,  // that the bounce before lights
+    irsm,    // these points, splatted into imperfect reflective shadow maps (Ritschel et al. 2008)
+    avg,     // where rays from the bounce before meet the grid (Bashford-Rogers et al. 2012)
+};
+
+// Where a ray through the approximate visibility grid ends.
+enum class AvgHits {
+    slabs,   // where it enters the slab that bounds a voxel's surface
+    voxels,  // in the first voxel that holds a surface, some way into it, as in the 2012 paper
+};
+
+// How the rays of a bounce are shared out among the lights before.
+enum class AvgPaths {
+    roulette,  // by what each reflects, so that rays are worth the same
+    fixed,     // evenly, each ray weighed by what its light reflects
 };
 
 enum class MapProjection {

@@ -116,12 +116,18 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
 // Lights that one is compared with to find how densely they lie.
 constexpr int k_most_compared = 256;
 
-BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const VplSet& set) {
+// traced: AvgUniforms, where the lights come from rays through that grid.
+BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const VplSet& set,
+                         const gpu::UniformArena::Slot* traced) {
     BufferHandle out;
     graph.add_pass("vpl spacing", [&](PassBuilder& builder) {
         out = builder.write(set.vpls);
-        return [context, set, out](const PassResources& resources) {
-            context.programs.compute("passes/vpl_spacing.comp").use();
+        return [context, set, out, grid = traced == nullptr ? gpu::UniformArena::Slot{} : *traced,
+                traced = traced != nullptr](const PassResources& resources) {
+            gl::Defines defines;
+            if (traced) defines["TRACED"] = "1";
+            context.programs.compute("passes/vpl_spacing.comp", defines).use();
+            if (traced) context.uniforms.bind(UBO_AVG, grid);
             context.uniforms.bind(UBO_ISM, set.uniforms);
             resources.buffer(out).bind_storage(SSBO_VPLS_OUT);
             glUniform1i(0, std::max(set.maps / k_most_compared, 1));
@@ -134,6 +140,11 @@ BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const Vp
 }
 
 }  // namespace
+
+BufferHandle add_traced_spacing(FrameGraph& graph, const PassContext& context, const VplSet& set,
+                                gpu::UniformArena::Slot grid) {
+    return add_spacing(graph, context, set, &grid);
+}
 
 DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
                              const std::vector<VplSource>& sources, VplSet layout, bool glossy,
@@ -194,7 +205,7 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
                       }};
     DrawnVpls drawn = add_vpls(graph, context, {only}, layout, ", next bounce", !splatted);
     if (splatted) {
-        drawn.set.vpls = add_spacing(graph, context, drawn.set);
+        drawn.set.vpls = add_spacing(graph, context, drawn.set, nullptr);
     }
     return drawn;
 }

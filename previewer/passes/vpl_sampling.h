@@ -42,6 +42,10 @@ struct DrawnVpls {
 [[nodiscard]] DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
                                            const std::vector<VplSource>& sources, VplSet layout, bool glossy,
                                            VplSampling sampling);
+// The area that each of a set's lights stands for, from how densely they lie; the lights with it filled in.
+// Of lights that were traced through a grid with these AvgUniforms.
+[[nodiscard]] BufferHandle add_traced_spacing(FrameGraph& graph, const PassContext& context,
+                                              const VplSet& set, gpu::UniformArena::Slot grid);
 [[nodiscard]] DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context,
                                             const IrsmSource& source, VplSet layout, bool glossy);
 

@@ -271,6 +271,20 @@ void plan_temporal_reuse(const Settings& settings, bool lit, FramePlan& plan) {
     }
 }
 
+// Whether rays are traced through the approximate visibility grid.
+void plan_grid(const Settings& settings, FramePlan& plan) {
+    const bool further = plan.bounces > 1 || plan.world_bounces > 0 || plan.emitter_bounces > 0;
+    plan.avg = plan.traced || (further && settings.bounce_source == BounceSource::avg);
+    if (!plan.avg && settings.technique == Technique::ism) {
+        plan.left_out.push_back(
+            {"avg cells",
+             settings.bounce_source == BounceSource::avg
+                 ? "nothing is traced through it: there is no bounce after those of the reflective "
+                   "shadow maps"
+                 : "nothing is traced through it: bounces are not asked for by avg"});
+    }
+}
+
 }  // namespace
 
 FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
@@ -293,12 +307,19 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
         plan.left_out.push_back({"light", "the layer shows motion alone"});
         return plan;
     }
+    if (settings.show == Show::avg) {
+        plan.avg = true;
+        plan.direct = plan.indirect = false;
+        plan.left_out.push_back({"light", "the layer shows the approximate visibility grid alone"});
+        return plan;
+    }
     plan_transparency(scene, pose, settings, plan);
     plan_lights(pose, settings, sight, plan);
     plan.direct = plan.direct && !plan.lights.empty();
     plan_materials(scene, pose, settings, plan);
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
-    plan.near_field = plan.vpls && settings.near_field;
+    plan.traced = plan.vpls && settings.traces_first();
+    plan.near_field = plan.vpls && settings.near_field && !plan.traced;
     plan.bounces = plan.vpls ? settings.bounces : 0;
     plan.interpolate = plan.indirect && settings.technique == Technique::rsm && settings.interpolate &&
                        settings.lowres_step > 1 && !settings.rsm_full_sum;
@@ -329,6 +350,7 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
             ? settings.bounces
             : 0;
     plan_emitters(settings, whole, plan);
+    plan_grid(settings, plan);
     if (plan.world_bounces + plan.emitter_bounces > 0) {
         std::erase(plan.notes, std::string("no bounced light: ") + k_no_light);
     }

@@ -43,6 +43,8 @@ struct FramePlan {
     bool emitters_occluded = false;
     bool blends = false;             // blended surfaces have layers of their own
     int blend_layers = 0;            // at most so many, where there are any
+    bool avg = false;                // the approximate visibility grid is filled
+    bool traced = false;             // the first bounce's lights are where rays from the lights meet it
     bool motion = false;             // nothing but where surfaces were in the frame before
     std::vector<int> lights;         // into Pose::light_instances, those that send light
     std::vector<bool> takes_light;   // per entry of `lights`: power below 0; it has no bounce

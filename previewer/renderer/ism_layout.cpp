@@ -101,7 +101,7 @@ gpu::IsmUniforms irsm_uniforms(const IsmLayout& layout, const Settings& settings
                                size_t first, double mean_radius, double dense_area) {
     gpu::IsmUniforms out = layout_uniforms(layout, reflectors, first);
     const double density = static_cast<double>(reflectors) / layout.points_a_map;
-    const double overlap = settings.splat_irsms ? k_reflector_overlap : 1.0;
+    const double overlap = settings.bounce_source == BounceSource::irsm ? k_reflector_overlap : 1.0;
     out.splat = glm::vec4(glm::dvec4(density * overlap * overlap, dense_area * density,
                                      k_flat_bias * mean_radius, k_slope_bias));
     return out;

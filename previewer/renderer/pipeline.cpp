@@ -25,6 +25,7 @@
 #include "passes/vpl_gather.h"
 #include "passes/vpl_sampling.h"
 #include "passes/vpl_view.h"
+#include "renderer/avg_rays.h"
 
 namespace bounce {
 namespace {
@@ -155,21 +156,35 @@ void add_lights(FrameGraph& graph, const PipelineInputs& in, const passes::Scene
     lit.splats.push_back(maps.splats);
 }
 
+passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgGrid& grid, int number) {
+    return {.grid = grid,
+            .hits = in.settings.avg_hits,
+            .paths = in.settings.avg_paths,
+            .numbers = in.avg.numbers,
+            .sequences = k_avg_sequences,
+            .bounce = number,
+            .glossy = in.plan.glossy};
+}
+
 // The lights of bounce `next`, from what surfaces reflect of the lights of the one before.
 passes::VplSet add_next_bounce(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
                                const passes::VplSet& before, const passes::VplSet& irsms, const Bounce& next,
-                               bool slope_bias) {
+                               const passes::AvgGrid& grid, BouncedLights& lit) {
     using namespace passes;
+    if (in.settings.bounce_source == BounceSource::avg) {
+        return add_vpls_from_avg(graph, in.context, trace_inputs(in, grid, static_cast<int>(lit.sets.size())),
+                                 before, next.lights);
+    }
     VplSet maps = irsms;
     maps.vpls = before.vpls;
     maps.distant = before.distant;
     IrsmSource source{.set = maps,
                       .irsm = {},
                       .atlas = before.atlas,
-                      .slope_bias = slope_bias && !before.distant,
+                      .slope_bias = lit.slope_bias && !before.distant,
                       .scene = scene,
                       .store = in.points};
-    if (in.settings.splat_irsms && !before.distant) {
+    if (in.settings.bounce_source == BounceSource::irsm && !before.distant) {
         source.irsm = add_irsm(graph, in.context, scene, maps);
     }
     return add_vpls_from_irsms(graph, in.context, source, next.lights, in.plan.glossy).set;
@@ -192,12 +207,13 @@ struct Emitted {
 
 void add_further_bounces(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene,
                          const passes::VplSet& source, const passes::VplSet& irsms,
-                         const std::vector<Bounce>& bounces, BouncedLights& lit) {
+                         const std::vector<Bounce>& bounces, const passes::AvgGrid& grid,
+                         BouncedLights& lit) {
     for (size_t i = 0; i < bounces.size(); ++i) {
         const bool first = i == 0;
         add_lights(graph, in, scene,
                    add_next_bounce(graph, in, scene, first ? source : lit.sets.back(),
-                                   first ? irsms : bounces[i - 1].irsms, bounces[i], lit.slope_bias),
+                                   first ? irsms : bounces[i - 1].irsms, bounces[i], grid, lit),
                    lit);
     }
 }
@@ -210,8 +226,14 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
     using namespace passes;
     BouncedLights lit;
     lit.slope_bias = in.settings.visibility == Visibility::ism && in.settings.splat != Splat::disks;
+    const AvgGrid grid = in.plan.avg ? add_avg_grid(graph, in.context, in.avg.grid) : AvgGrid{};
     for (size_t i = 0; i < in.bounces.size(); ++i) {
-        if (i == 0) {
+        if (i == 0 && in.plan.traced) {
+            add_lights(graph, in, scene,
+                       add_vpls_from_rays(graph, in.context, trace_inputs(in, grid, k_avg_sequences - 1),
+                                          *in.avg.rays, in.bounces[0].lights),
+                       lit);
+        } else if (i == 0) {
             const DrawnVpls drawn = add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights,
                                                        in.plan.glossy, in.settings.vpl_sampling);
             lit.importance = drawn.importance;
@@ -219,12 +241,12 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
         } else {
             add_lights(graph, in, scene,
                        add_next_bounce(graph, in, scene, lit.sets.back(), in.bounces[i - 1].irsms,
-                                       in.bounces[i], lit.slope_bias),
+                                       in.bounces[i], grid, lit),
                        lit);
         }
     }
-    add_further_bounces(graph, in, scene, emitted.world, in.world.irsms, in.world_bounces, lit);
-    add_further_bounces(graph, in, scene, emitted.emitters, in.emitters.irsms, in.emitter_bounces, lit);
+    add_further_bounces(graph, in, scene, emitted.world, in.world.irsms, in.world_bounces, grid, lit);
+    add_further_bounces(graph, in, scene, emitted.emitters, in.emitters.irsms, in.emitter_bounces, grid, lit);
     return lit;
 }
 
@@ -495,6 +517,11 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         add_motion(graph, context, in.camera, in.previous, in.target);
         return;
     }
+    if (in.settings.show == Show::avg) {
+        add_avg_view(graph, context, add_avg_grid(graph, context, in.avg.grid),
+                     in.settings.avg_hits == AvgHits::voxels, in.target);
+        return;
+    }
     const GBuffer gbuffer = add_gbuffer(graph, context, in.camera, in.anything_seen);
     // Where bounced light is gathered.
     const GBuffer lit_surfaces = in.plan.hybrid ? add_simplified_gbuffer(graph, context, in.camera) : gbuffer;
@@ -530,10 +557,10 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             }
             direct = add_light_of(graph, in, gbuffer, light, shadows[i], direct);
         }
-        if (in.plan.indirect && !in.plan.takes_light[i]) {
+        if (in.plan.indirect && !in.plan.takes_light[i] && !in.plan.traced) {
             first_places.push_back(gather.sources.size());
             for (size_t at = 0; at < in.bounce_sources.size(); ++at) {
-                const BounceSource& place = in.bounce_sources[at];
+                const BounceStart& place = in.bounce_sources[at];
                 if (place.light == i) {
                     const TextureHandle rsm =
                         kept_map(graph, "rsm: " + place.pass.name, keep(&KeptMaps::rsms, at),

@@ -7,6 +7,7 @@
 #include "gpu/emitter_store.h"
 #include "gpu/point_store.h"
 #include "passes/accumulate.h"
+#include "passes/avg_trace.h"
 #include "passes/motion.h"
 #include "passes/pass_context.h"
 #include "passes/removed_light.h"
@@ -26,7 +27,7 @@ struct Bounce {
 };
 
 // What bounced light starts from: a light, or a place on it.
-struct BounceSource {
+struct BounceStart {
     size_t light = 0;  // in PipelineInputs::lights
     passes::LightPass pass;
     gpu::UniformArena::Slot gather_frame;  // FrameUniforms with its sample count
@@ -51,6 +52,13 @@ struct OneOfMany {
     passes::PictureMeans* means = nullptr;
 };
 
+// The approximate visibility grid, yet to be filled, and what is traced through it.
+struct AvgInputs {
+    passes::AvgGrid grid;
+    const gl::Buffer* numbers = nullptr;
+    const gl::Buffer* rays = nullptr;  // where plan.traced
+};
+
 struct PipelineInputs {
     const FramePlan& plan;
     const Settings& settings;
@@ -61,10 +69,10 @@ struct PipelineInputs {
     // none.
     std::vector<passes::ImperfectMaps> imperfect;
     std::vector<gl::Buffer>* places = nullptr;
-    std::vector<BounceSource> bounce_sources;  // in their order, one of each at least
-    gpu::PointStore* points = nullptr;         // where the plan needs them
-    std::vector<Bounce> bounces;               // plan.bounces of them
-    Bounce world;                              // where plan.world_occluded; its lights' buffer:
+    std::vector<BounceStart> bounce_sources;  // in their order, one of each at least
+    gpu::PointStore* points = nullptr;        // where the plan needs them
+    std::vector<Bounce> bounces;              // plan.bounces of them
+    Bounce world;                             // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
     passes::WorldImage image;           // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
@@ -73,6 +81,7 @@ struct PipelineInputs {
     std::vector<Bounce> emitter_bounces;         // plan.emitter_bounces of them
     passes::TessellatedPoints tessellated;       // where the splats of lights within the scene are made so
     passes::TessellatedPoints soft_tessellated;  // and in imperfect maps of places on lights
+    AvgInputs avg;                               // where plan.avg
     int triangles_inside = 0;                    // large triangles in maps of lights within the scene
     passes::PreviousFrame previous;              // where the plan shows motion
     // Where plan.temporal_reuse: what is kept for the next frame, and taken of the one before.

@@ -13,6 +13,8 @@ enum class Preset {
                 // Illumination"
     ism2008,    // Ritschel et al. 2008, "Imperfect Shadow Maps for Efficient Computation of Indirect
                 // Illumination"
+    avg2012,    // Bashford-Rogers et al. 2012, "Approximate Visibility Grids for Interactive Indirect
+                // Illumination"
 };
 
 [[nodiscard]] Settings preset_settings(Preset preset);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "renderer/avg_layout.h"
 #include "renderer/bounce_places.h"
 #include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
@@ -72,8 +73,14 @@ bool splats_points(const FramePlan& plan, const Settings& settings) {
                                                                    settings.technique != Technique::ism));
 }
 
+// Further bounces are drawn from points; or traced through the approximate visibility grid.
+bool draws_from_points(const FramePlan& plan, const Settings& settings) {
+    return settings.bounce_source != BounceSource::avg &&
+           (plan.bounces > 1 || plan.world_bounces > 0 || plan.emitter_bounces > 0);
+}
+
 bool points_needed(const FramePlan& plan, const Settings& settings) {
-    return splats_points(plan, settings) || plan.bounces > 1 || plan.world_bounces > 0 || plan.emitters ||
+    return splats_points(plan, settings) || draws_from_points(plan, settings) || plan.emitters ||
            plan.imperfect_shadows;
 }
 
@@ -123,7 +130,7 @@ DistantMaps distant_maps(const scene::Bounds& box, const gpu::RenderSpace& space
 // Lights of further bounces are drawn from a table of every lighted point, which must fit into one block of
 // what shaders read.
 void require_fitting_sums(const Settings& settings, const FramePlan& plan, int points_a_map) {
-    const bool tables = !settings.splat_irsms;  // of lights within the scene
+    const bool tables = settings.bounce_source == BounceSource::points;  // of lights within the scene
     int lights = plan.world_bounces > 0 ? settings.world_vpls : 0;
     const char* option = "--world-vpls";
     for (const auto& [count, name] :
@@ -283,7 +290,9 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                  ? settings.ism_points
                                  : automatic_points(settings.ism_size, depth_complexity(occluding, around));
         irsm.points_a_map = automatic_points(k_irsm_size, depth_complexity(points_->parts().area_m2(), hull));
-        require_fitting_sums(settings, plan, irsm.points_a_map);
+        if (draws_from_points(plan, settings)) {
+            require_fitting_sums(settings, plan, irsm.points_a_map);
+        }
         if (plan.imperfect_shadows) {
             const double complexity =
                 depth_complexity(occluding, box_surface_m2(points_->first_ground().rest));
@@ -312,7 +321,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         IsmLayout most = irsm;
         most.vpls = std::max({most.vpls, plan.world_bounces > 0 ? settings.world_vpls : 0,
                               plan.emitter_bounces > 0 ? emitter_layout(settings, 0).vpls : 0});
-        const bool reflected = plan.bounces > 1 || plan.world_bounces > 0 || plan.emitter_bounces > 0;
+        const bool reflected = draws_from_points(plan, settings);
         counts.reflectors = reflected ? points_in_all(most) : 0;
         counts.large_triangles = settings.large_triangles && settings.splat == Splat::disks;
         // What is on the hull hides no place of the scene from another, but the world from both.
@@ -403,7 +412,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         // are.
         Settings disks = settings;
         disks.splat = passes::Splat::disks;
-        disks.splat_irsms = false;
+        disks.bounce_source = BounceSource::points;
         out.world = make_bounce(layout, disks);
         out.world.lights.distant = true;
         out.world.lights.image = environment_ != nullptr;
@@ -456,6 +465,35 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
             maps.set.points_a_map = uniforms.atlas.w = 0;
         }
         maps.set.uniforms = uniforms_.add(uniforms);
+    }
+    return out;
+}
+
+AvgInputs Renderer::prepare_avg(const std::vector<AvgRayLight>& lights, const Settings& settings,
+                                const FramePlan& plan) {
+    AvgInputs out;
+    if (!plan.avg) {
+        return out;
+    }
+    if (first_bounds_.empty()) {
+        first_bounds_ = scene::world_bounds(scene_, scene::evaluate_pose(scene_, 0.0));
+    }
+    GLint64 block_bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
+    out.grid.layout = avg_layout(first_bounds_, gpu_scene_.bounds(), gpu_scene_.space(), settings.avg_size,
+                                 static_cast<long long>(block_bytes));
+    out.grid.uniforms = uniforms_.add(out.grid.layout);
+    const IsmLayout first = ism_layout(settings, 1, 0);
+    const int most = std::max(first.vpls, ism_layout(settings, 2, 0).vpls);
+    if (avg_numbers_.bytes() < static_cast<size_t>(most) * k_avg_sequences * sizeof(glm::vec4)) {
+        const std::vector<glm::vec4> numbers = avg_numbers(most);
+        avg_numbers_ = gl::Buffer::of("avg numbers", std::span<const glm::vec4>(numbers));
+    }
+    out.numbers = &avg_numbers_;
+    if (plan.traced) {
+        const std::vector<gpu::GpuAvgRay> rays = avg_rays(lights, first);
+        avg_rays_ = gl::Buffer::of("avg rays", std::span<const gpu::GpuAvgRay>(rays));
+        out.rays = &avg_rays_;
     }
     return out;
 }
@@ -602,7 +640,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     const std::vector<Region> receivers = any_soft ? receivers_in(gpu_scene_, camera) : std::vector<Region>{};
     std::vector<passes::LightPass> lights;
     std::vector<Imperfect> imperfect;
-    std::vector<BounceSource> bounce_sources;
+    std::vector<BounceStart> bounce_sources;
+    std::vector<AvgRayLight> ray_lights;
     std::vector<double> fluxes;         // of the lights
     std::vector<double> source_fluxes;  // of the sources of bounced light
     const auto light_pass = [&](const LightSetup& setup) {
@@ -658,6 +697,9 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         lights.push_back(pass);
         fluxes.push_back(pass.flux_w);
+        if (plan.traced && !plan.takes_light[i]) {
+            ray_lights.push_back({setup, described.pattern});
+        }
         for (const LightSetup& place : bounce_places(setup, plan.places[i], described.pattern)) {
             bounce_sources.push_back({i, plan.places[i] == 1 ? pass : light_pass(place), {}, nullptr});
             source_fluxes.push_back(bounce_sources.back().pass.flux_w);
@@ -665,6 +707,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, one_of_many);
+    const AvgInputs avg = prepare_avg(ray_lights, settings, plan);
     Settings drawn = settings;
     drawn.splat = bounces.splat;
     const std::vector<passes::ImperfectMaps> imperfect_maps = prepare_imperfect(
@@ -750,6 +793,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .emitter_bounces = bounces.emitter_bounces,
                 .tessellated = bounces.tessellated,
                 .soft_tessellated = bounces.soft_tessellated,
+                .avg = avg,
                 .triangles_inside = bounces.triangles,
                 .previous = previous_frame,
                 .kept = light_before.next,

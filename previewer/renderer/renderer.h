@@ -20,6 +20,7 @@
 #include "gpu/triangle_patches.h"
 #include "gpu/uniform_arena.h"
 #include "image/image.h"
+#include "renderer/avg_rays.h"
 #include "renderer/camera_view.h"
 #include "renderer/environment_world.h"
 #include "renderer/frame_plan.h"
@@ -154,6 +155,10 @@ class Renderer {
     // Splat::automatic made one of the others, for so many points a map.
     [[nodiscard]] SplatChoice chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
                                            int soft_lights, int soft_points) const;
+    // The approximate visibility grid of this pose, where it is planned, and what is traced through it: rays
+    // of the lights, which stand at their middles, not at their bounces' places.
+    AvgInputs prepare_avg(const std::vector<AvgRayLight>& lights, const Settings& settings,
+                          const FramePlan& plan);
     const gl::Buffer& pattern(passes::RsmPattern kind, int samples);
 
     const scene::Scene& scene_;
@@ -172,6 +177,9 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
+    scene::Bounds first_bounds_;  // where the animation begins
+    gl::Buffer avg_rays_;
+    gl::Buffer avg_numbers_;
     std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
     std::unique_ptr<gpu::LobeTable> lobes_;  // made when a glossy surface first meets a light with a size

@@ -29,7 +29,30 @@ const std::map<std::string, Shading>& setting_names<Shading>() {
 template <>
 const std::map<std::string, VplSampling>& setting_names<VplSampling>() {
     static const std::map<std::string, VplSampling> names = {
-        {"inverse-transform", VplSampling::inverse_transform}, {"uniform", VplSampling::uniform}};
+        {"inverse-transform", VplSampling::inverse_transform},
+        {"uniform", VplSampling::uniform},
+        {"avg", VplSampling::avg}};
+    return names;
+}
+
+template <>
+const std::map<std::string, BounceSource>& setting_names<BounceSource>() {
+    static const std::map<std::string, BounceSource> names = {
+        {"points", BounceSource::points}, {"irsm", BounceSource::irsm}, {"avg", BounceSource::avg}};
+    return names;
+}
+
+template <>
+const std::map<std::string, AvgHits>& setting_names<AvgHits>() {
+    static const std::map<std::string, AvgHits> names = {{"slabs", AvgHits::slabs},
+                                                         {"voxels", AvgHits::voxels}};
+    return names;
+}
+
+template <>
+const std::map<std::string, AvgPaths>& setting_names<AvgPaths>() {
+    static const std::map<std::string, AvgPaths> names = {{"roulette", AvgPaths::roulette},
+                                                          {"fixed", AvgPaths::fixed}};
     return names;
 }
 
@@ -82,7 +105,8 @@ const std::map<std::string, Show>& setting_names<Show>() {
                                                       {"vpl-visibility", Show::vpl_visibility},
                                                       {"unblurred", Show::unblurred},
                                                       {"removed", Show::removed},
-                                                      {"motion", Show::motion}};
+                                                      {"motion", Show::motion},
+                                                      {"avg", Show::avg}};
     return names;
 }
 

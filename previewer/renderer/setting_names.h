@@ -10,7 +10,8 @@
 
 namespace bounce {
 
-// For Technique, Visibility, Shading, VplSampling, MapProjection, DirectShadows, Splat, PullPush, Show and
+// For Technique, Visibility, Shading, VplSampling, BounceSource, AvgHits, AvgPaths, MapProjection,
+// DirectShadows, Splat, PullPush, Show and
 // passes::RsmPattern.
 template <typename T>
 [[nodiscard]] const std::map<std::string, T>& setting_names();
@@ -33,6 +34,12 @@ template <>
 [[nodiscard]] const std::map<std::string, Shading>& setting_names<Shading>();
 template <>
 [[nodiscard]] const std::map<std::string, VplSampling>& setting_names<VplSampling>();
+template <>
+[[nodiscard]] const std::map<std::string, BounceSource>& setting_names<BounceSource>();
+template <>
+[[nodiscard]] const std::map<std::string, AvgHits>& setting_names<AvgHits>();
+template <>
+[[nodiscard]] const std::map<std::string, AvgPaths>& setting_names<AvgPaths>();
 template <>
 [[nodiscard]] const std::map<std::string, MapProjection>& setting_names<MapProjection>();
 template <>

@@ -39,6 +39,9 @@ enum class DirectShadows {
 using Splat = passes::Splat;
 using PullPush = passes::PullPush;
 using VplSampling = passes::VplSampling;
+using BounceSource = passes::BounceSource;
+using AvgHits = passes::AvgHits;
+using AvgPaths = passes::AvgPaths;
 using MapProjection = passes::MapProjection;
 
 // What the colour target shows.
@@ -58,6 +61,7 @@ enum class Show {
     unblurred,       // indirect light before the blur
     removed,         // light that bounding the lights' kernels takes away
     motion,          // where each pixel's point of surface was in the frame before
+    avg,             // the approximate visibility grid: colour and normal of its voxels
 };
 
 // Light, to be seen through the scene's view transform; the other layers are data.
@@ -115,8 +119,12 @@ struct Settings {
     Visibility visibility = Visibility::ism;
     MapProjection map_projection = MapProjection::faces;  // of maps drawn from triangles
     Splat splat = Splat::disks;
-    bool splat_irsms = false;  // further bounces by splatted maps, as in the 2008 paper
-    int ism_size = 64;         // texels a side of each map
+    BounceSource bounce_source = BounceSource::points;
+    // The approximate visibility grid, where something is traced through it or it is shown.
+    int avg_size = 64;  // voxels along the scene's longest side
+    AvgHits avg_hits = AvgHits::slabs;
+    AvgPaths avg_paths = AvgPaths::roulette;
+    int ism_size = 64;  // texels a side of each map
     int ism_points =
         0;  // points splatted into each map; 0 chooses by the maps' size and the depth complexity
     bool large_triangles = true;         // with disks: what would take many points is drawn as triangles
@@ -152,6 +160,14 @@ struct Settings {
     // Maps of virtual point lights are drawn from triangles.
     [[nodiscard]] bool draws_triangle_maps() const {
         return visibility == Visibility::shadow_maps || visibility == Visibility::simplified;
+    }
+    // Rays may be traced through the approximate visibility grid: the plan says whether any are.
+    [[nodiscard]] bool traces_first() const {
+        return technique == Technique::ism && vpl_sampling == VplSampling::avg;
+    }
+    [[nodiscard]] bool uses_avg() const {
+        return technique == Technique::ism &&
+               (vpl_sampling == VplSampling::avg || bounce_source == BounceSource::avg || show == Show::avg);
     }
     // Some pass of virtual point lights draws simplified meshes.
     [[nodiscard]] bool simplifies() const {

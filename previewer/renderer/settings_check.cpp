@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/avg_layout.h"
 #include "renderer/imperfect_setup.h"
 #include "renderer/ism_layout.h"
 #include "renderer/setting_names.h"
@@ -75,7 +76,8 @@ std::string ism_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--vpls", s.vpls, 1, k_most_vpls, "give a number"),
           out_of("--bounces", s.bounces, 1, k_most_bounces, "give a number"),
-          out_of("--bounce-vpls", s.bounce_vpls, 1, k_most_vpls, "give a number")}) {
+          out_of("--bounce-vpls", s.bounce_vpls, 1, k_most_vpls, "give a number"),
+          out_of("--avg-size", s.avg_size, k_least_avg_size, k_most_avg_size, "give a number")}) {
         if (!refusal.empty()) {
             return refusal;
         }
@@ -209,6 +211,16 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
             "--splat tessellation needs storage buffers in vertex and tessellation shaders, {} and 1; this "
             "OpenGL driver has {} and {}: give --splat compute or disks",
             k_patch_storage_blocks, limits.vertex_storage_blocks, limits.evaluation_storage_blocks);
+    }
+    if (refusal.empty() && settings.uses_avg()) {
+        const int most = most_avg_size(limits.storage_block_bytes);
+        if (settings.avg_size > most) {
+            refusal = fmt::format(
+                "--avg-size is {}; this OpenGL driver's buffers of {} MiB hold the surfaces of a grid of {} "
+                "at "
+                "most",
+                settings.avg_size, limits.storage_block_bytes >> 20, most);
+        }
     }
     const bool maps = settings.technique == Technique::ism && settings.visibility != Visibility::none;
     for (int bounce = 1; maps && refusal.empty() && bounce <= settings.bounces; ++bounce) {

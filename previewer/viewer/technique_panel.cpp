@@ -57,6 +57,14 @@ bool vpl_settings(Settings& settings) {
         ImGui::SliderInt("bounces", &settings.bounces, 1, k_most_bounces, "%d", ImGuiSliderFlags_AlwaysClamp);
     if (settings.bounces > 1) {
         changed |= ImGui::SliderInt("lights a bounce", &settings.bounce_vpls, 1, k_slider_vpls, "%d", k_log);
+        changed |= choose("bounces by", std::array{"points", "imperfect RSMs", "visibility grid"},
+                          settings.bounce_source);
+    }
+    changed |= choose("first bounce", std::array{"cells of equal flux", "Halton points", "visibility grid"},
+                      settings.vpl_sampling);
+    if (settings.uses_avg()) {
+        changed |= choose_size("grid", std::array{32, 64, 128, 256}, settings.avg_size);
+        changed |= choose("rays end", std::array{"at slabs", "in voxels"}, settings.avg_hits);
     }
     changed |= choose_size("interleave", std::array{1, 2, 4, 8, 16}, settings.interleave);
     changed |= ImGui::Checkbox("temporal reuse", &settings.temporal_reuse);

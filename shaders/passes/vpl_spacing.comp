@@ -3,8 +3,15 @@
 // Surface area that each virtual point light of a further bounce stands for, from how densely they lie: the disk
 // around a light that holds its NEIGHBOURS nearest ones that face alike, shared out among them. (The maps they were
 // drawn from overlap, so a texel's own area says nothing about it.)
+//
+// TRACED: by rays, some of which met nothing and made lights that are none. No area below LEAST_AREA of a voxel's face: what
+// is nearer to each other than that the grid does not tell apart.
 #include "lib/math.glsl"
 #include "lib/vpl.glsl"
+#ifdef TRACED
+#include "lib/avg.glsl"
+const float LEAST_AREA = 1.0 / 16.0;
+#endif
 
 layout(local_size_x = GROUP_1D) in;
 layout(location = 0) uniform int stride;  // every stride-th light is looked at
@@ -31,7 +38,11 @@ void main() {
     }
     for (int i = index % stride; i < ism.atlas.z; i += stride) {
         vec3 d = spaced[i].position.xyz - position;
-        float squared = i != index && dot(spaced[i].normal.xyz, normal) > ALIKE ? dot(d, d) : 1.0;
+        bool alike = i != index && dot(spaced[i].normal.xyz, normal) > ALIKE;
+#ifdef TRACED
+        alike = alike && any(greaterThan(spaced[i].intensity.rgb + spaced[i].glossy.rgb + spaced[i].arriving.rgb, vec3(0.0)));
+#endif
+        float squared = alike ? dot(d, d) : 1.0;
         for (int k = 0; k < NEIGHBOURS; ++k) {
             float less = min(nearest[k], squared);
             squared = max(nearest[k], squared);
@@ -44,5 +55,8 @@ void main() {
     for (int k = 0; k < NEIGHBOURS; ++k) {
         area = nearest[k] < 1.0 ? PI * nearest[k] / float((k + 1) * stride) : area;
     }
+#ifdef TRACED
+    area = max(area, LEAST_AREA * avg.origin.w * avg.origin.w);
+#endif
     spaced[index].position.w = area * extent;
 }

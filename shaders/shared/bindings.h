@@ -13,6 +13,7 @@
 #define UBO_DRAW 5
 #define UBO_SHADOW_VIEWS 6
 #define UBO_WORLD 7
+#define UBO_AVG 8
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
@@ -44,6 +45,17 @@
 #define SSBO_PIECES_OUT 5
 #define SSBO_PIECE_COMMANDS 6
 #define SSBO_REUSE_COUNT 3
+// The approximate visibility grid is filled from all of these at once ...
+#define SSBO_AVG_POSITIONS 2
+#define SSBO_AVG_INDICES 3
+#define SSBO_AVG_UV0 4
+#define SSBO_AVG_UV1 5
+#define SSBO_AVG_COLORS 6
+#define SSBO_AVG_SUMS 7
+// ... and traced with these.
+#define SSBO_AVG_VOXELS 1
+#define SSBO_AVG_RAYS 3
+#define SSBO_AVG_NUMBERS 4
 #define SSBO_DEFORM_JOBS 0
 #define SSBO_POSITIONS 1
 #define SSBO_NORMALS 2
@@ -88,6 +100,9 @@
 #define IMG_SOURCES 1
 #define IMG_HISTORY 3
 #define IMG_HISTORY_LENGTH 4
+#define IMG_AVG_CELLS 3
+#define IMG_AVG_TILES 4
+#define IMG_AVG_COUNTS 5
 
 // Vertex attributes.
 #define ATTRIB_POSITION 0
@@ -121,6 +136,18 @@
 #define AA_SAMPLES 4
 // One group splats the points of one imperfect shadow map.
 #define GROUP_SPLAT 128
+// Columns of voxels a side of a tile: one group takes a large triangle through one tile. Triangles over at most
+// AVG_SMALL columns are taken through all by one thread.
+// Words of a surface's sums (lib/avg_triangle.glsl).
+#define AVG_SUM_WORDS 28
+#define AVG_SUM_STEPS 1099511627776.0
+#define AVG_TILE 8
+#define AVG_SMALL 16
+// Tiles of one batch of draws that are listed at most, AVG_TILE_ROW a row of the list; a triangle that finds it full is
+// taken through by its thread. Groups that take tiles off the list.
+#define AVG_TILE_ROW 1024
+#define AVG_MOST_TILES 1048576
+#define AVG_TILE_GROUPS 512
 // Tiles of such a map, and the triangles that are drawn into it at most.
 #define GROUP_MAP_TILE 16
 #define MOST_TRIANGLES 64

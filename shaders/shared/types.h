@@ -146,6 +146,33 @@ struct IsmUniforms {
     ivec4 gather;           // interleave n, VPLs a subset, columns of a subset's cells, -
 };
 
+// The approximate visibility grid (lib/avg.glsl).
+struct AvgUniforms {
+    vec4 origin;            // xyz render space, corner of the first voxel; w: side of a voxel
+    ivec4 size;             // voxels along x, y, z; surfaces (GpuAvgVoxel) there is room for
+    ivec4 sides;            // 6, 4: how often some loops run, so that they stay loops; -; -
+};
+
+// The surfaces of one voxel whose normals point along the same axis most, as they are traced.
+struct GpuAvgVoxel {
+    vec4 tensor_diagonal;   // sum of area * normal normal^T: xx, yy, zz; w: all their area, faces of a voxel
+    vec4 tensor_rest;       // xy, xz, yz; w: opaque part of the area
+    vec4 normal;            // xyz unit, the tensor's main direction, on no particular side; -
+    vec4 color;             // base colour, mean by area; -
+    vec4 surface;           // roughness, metallic, specular, 1 where the diffuse lobe is Disney's
+    ivec4 slab;             // least and largest place of the surfaces along `normal` from the voxel's middle, voxels
+                            // * AVG_SLAB_STEPS; -; -
+};
+#define AVG_SLAB_STEPS 1048576.0
+
+// A ray from a light into the grid.
+struct GpuAvgRay {
+    vec4 origin;            // xyz render space; w: 1 where it leaves a surface across `leaving`
+    vec4 direction;         // xyz unit; w: squared radius of the light, which weakens it near by
+    vec4 flux;              // rgb W, render-space units; -
+    vec4 leaving;           // xyz unit; -
+};
+
 // A point of the scene's surfaces as it was sampled; see scene/points.
 struct GpuPointSource {
     uvec4 place;            // three vertices in the position stream, surface

@@ -7,7 +7,7 @@ import browser
 import pytest
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
-               "lv-fig7"]
+               "lv-fig7", "avg-table1", "avg-table2"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -130,6 +130,33 @@ def test_maps_of_simplified_meshes(bounce, tmp_path):
     assert drawn == 49176 and 4000 < simplified <= 8900
     assert len(paper["rows"]) == 12
     assert any("GTX 280" in line for line in report["paper"])
+
+
+def test_stages_of_the_visibility_grid(bounce, tmp_path):
+    """The paper's Table I beside ours: rooms of about its scenes' triangles, and the scene itself."""
+    result = bounce("bench", "avg-table1", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    ours, paper = report["tables"]
+    names = [column["name"] for column in ours["columns"]]
+    rows = [dict(zip(names, row)) for row in ours["rows"]]
+    assert [row["triangles"] for row in rows] == [12 * 4**2 + 24, 12 * 14**2 + 24, 49176]
+    for row in rows:
+        for stage in ("grid", "trace", "shadow maps", "the rest"):
+            assert row[stage] > 0
+    # It fills the grid from every triangle.
+    assert rows[2]["grid"] > rows[0]["grid"]
+    assert [row[1] for row in paper["rows"]] == [156, 2113, 28218, 80062]
+
+
+def test_the_visibility_grid_against_screen_sizes(bounce, tmp_path):
+    result = bounce("bench", "avg-table2", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    table, = json.loads((tmp_path / "out" / "results.json").read_text())["tables"]
+    assert [row[0] for row in table["rows"]] == ["80x60", "100x75"]
+    for screen, ours, office, sibenik, over_first, office_over, sibenik_over in table["rows"]:
+        assert over_first == pytest.approx(ours / table["rows"][0][1])
+        assert office_over == pytest.approx(office / 7.9) and sibenik_over == pytest.approx(sibenik / 10.2)
 
 
 def test_interpolation_of_reflective_shadow_maps(bounce, tmp_path):

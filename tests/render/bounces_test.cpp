@@ -32,7 +32,7 @@ class Bounces : public ::testing::Test {
         settings.bounces = bounces;
         settings.vpls = 256;
         settings.bounce_vpls = 256;
-        settings.splat_irsms = splat;
+        settings.bounce_source = splat ? BounceSource::irsm : BounceSource::points;
         return draw(scene, camera, settings).mean();
     }
 };

@@ -184,7 +184,7 @@ TEST_F(ExecutedPasses, FurtherBounces) {
                               "vpl gather",
                               "composite"};
     EXPECT_EQ(run(occluded_scene(), settings), by_points);
-    settings.splat_irsms = true;
+    settings.bounce_source = BounceSource::irsm;
     const Passes splatted = run(occluded_scene(), settings);
     EXPECT_EQ(std::count(splatted.begin(), splatted.end(), "irsm"), 2);
     EXPECT_EQ(std::count(splatted.begin(), splatted.end(), "vpl spacing"), 2) << "splats overlap";

@@ -319,7 +319,7 @@ TEST_F(Tessellation, FurtherBouncesHaveTheirPointsBesideIt) {
     s.bounces = 2;
     s.bounce_vpls = 64;
     for (const bool irsm : {false, true}) {
-        s.splat_irsms = irsm;
+        s.bounce_source = irsm ? BounceSource::irsm : BounceSource::points;
         const Rendered made = draw(ball_scene(), floor_camera(), s);
         EXPECT_EQ(std::count(made.report.executed.begin(), made.report.executed.end(), "ism tessellation"),
                   2);
