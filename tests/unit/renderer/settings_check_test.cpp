@@ -237,7 +237,7 @@ TEST(LayerRefusal, SaysWhyALayerIsNotThere) {
 
 TEST(SettingNames, NameEveryValueOnce) {
     EXPECT_EQ(name_of(Show::vpl_visibility), "vpl-visibility");
-    EXPECT_EQ(setting_names<Show>().size(), static_cast<size_t>(Show::motion) + 1);
+    EXPECT_EQ(setting_names<Show>().size(), static_cast<size_t>(Show::avg) + 1);
     for (const auto& [name, show] : setting_names<Show>()) {
         EXPECT_EQ(name_of(show), name);
     }
