@@ -7,8 +7,8 @@ namespace bounce::bench {
 
 // A scene for measurements that need none in particular: a closed room 6 m wide with coloured side walls,
 // twelve spheres and a free-standing wall, under one spot; with the 64 segments around a sphere that are the
-// default, and half as many from pole to pole, 49,176 triangles. segments: an even number; triangles go with the
-// square of it.
+// default, and half as many from pole to pole, 49,176 triangles. segments: an even number; triangles go with
+// the square of it.
 [[nodiscard]] scene::Scene make_room(int segments = 64);
 
 }  // namespace bounce::bench

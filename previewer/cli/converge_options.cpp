@@ -78,7 +78,8 @@ void ConvergeOptions::check(const Settings& settings) const {
     }
     if (settings.traces_first()) {
         throw usage_error(
-            "--vpl-sampling avg sends the same rays in every pass, which --converge would not make better; give another");
+            "--vpl-sampling avg sends the same rays in every pass, which --converge would not make better; "
+            "give another");
     }
     if (settings.temporal_reuse) {
         throw usage_error(

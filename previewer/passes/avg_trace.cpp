@@ -82,8 +82,8 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
                 resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
             }
             resources.buffer(out.vpls).bind_storage(SSBO_VPLS_OUT);
-            const glm::vec4 turn = turn_of(inputs.bounce / inputs.sequences +
-                                           static_cast<int>(out.seed) * k_bounces_a_seed);
+            const glm::vec4 turn =
+                turn_of(inputs.bounce / inputs.sequences + static_cast<int>(out.seed) * k_bounces_a_seed);
             const auto numbers =
                 static_cast<int>(inputs.numbers->bytes() / sizeof(glm::vec4)) / inputs.sequences;
             glUniform3i(0, out.maps, out.map_size, out.columns);
