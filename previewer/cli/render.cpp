@@ -61,7 +61,6 @@ std::vector<int> choose_frames(const Arguments& arguments, const scene::Scene& s
     return frames;
 }
 
-// Refuses names of the view that are not there, and options of it that no file would show.
 // What the exporter could not say of the Blender scene: the picture will differ there.
 void warn_of_unsupported(const scene::Scene& scene) {
     constexpr size_t k_named = 4;
@@ -78,6 +77,7 @@ void warn_of_unsupported(const scene::Scene& scene) {
     }
 }
 
+// Refuses names of the view that are not there, and options of it that no file would show.
 void check_view(const Arguments& arguments, const scene::ViewSettings& view, const Settings& settings) {
     if (!arguments.view.any()) {
         return;
