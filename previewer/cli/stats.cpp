@@ -187,6 +187,14 @@ ordered_json settings_json(const Settings& s) {
     out["near_field"] = s.near_field;
     out["glossy"] = s.glossy_bounces;
     out["vpl_sampling"] = name_of(s.vpl_sampling);
+    out["vpl_importance"] = name_of(s.vpl_importance);
+    if (s.vpl_importance == Importance::view) {
+        out["importance_pixels"] = s.importance_pixels;
+        out["importance_floor"] = s.importance_floor;
+    }
+    if (passes::is_chain(s.vpl_sampling)) {
+        out["vpl_steps"] = s.vpl_steps;
+    }
     out["shading"] = name_of(s.shading);
     if (s.simplifies()) {
         out["simplify"] = s.simplify.ratio > 0.0 ? ordered_json(s.simplify.ratio) : ordered_json("auto");

@@ -2,6 +2,7 @@
 #include "renderer/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -218,9 +219,28 @@ void add_further_bounces(FrameGraph& graph, const PipelineInputs& in, const pass
     }
 }
 
+// How the first bounce's lights are drawn. gbuffer: where they are gathered.
+passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer, uint32_t seed) {
+    const Settings& settings = in.settings;
+    passes::Drawing out{.glossy = in.plan.glossy,
+                        .sampling = settings.vpl_sampling,
+                        .steps = settings.vpl_steps,
+                        .map = settings.show == Show::importance,
+                        .view = {}};
+    if (settings.vpl_importance == Importance::view) {
+        const double pixels = static_cast<double>(in.context.width) * in.context.height;
+        out.view = {
+            .gbuffer = gbuffer,
+            .pixels = std::max(static_cast<int>(std::ceil(0.01 * settings.importance_pixels * pixels)), 1),
+            .floor = settings.importance_floor,
+            .seed = seed};
+    }
+    return out;
+}
+
 // Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
 // lights, then of the world, then of emissive surfaces.
-BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
+BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                           const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene,
                           const Emitted& emitted) {
     using namespace passes;
@@ -235,7 +255,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                        lit);
         } else if (i == 0) {
             const DrawnVpls drawn = add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights,
-                                                       in.plan.glossy, in.settings.vpl_sampling);
+                                                       drawing(in, gbuffer, in.bounces[0].lights.seed));
             lit.importance = drawn.importance;
             add_lights(graph, in, scene, drawn.set, lit);
         } else {
@@ -597,7 +617,11 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
-        lit = add_bounces(graph, in, sources, scene, emitted);
+        lit = add_bounces(graph, in, lit_surfaces, sources, scene, emitted);
+        if (in.settings.show == Show::importance && shown < first_places.size()) {
+            add_importance_view(graph, context, sources, first_places[shown], lit.importance, in.target);
+            return;
+        }
         if (add_map_layer(graph, in, gbuffer, lit)) {
             return;
         }

@@ -135,6 +135,16 @@ struct GpuVpl {
                             // w: Smith's term of the incident direction
 };
 
+// A pixel that virtual point lights are judged by (lib/importance_pixels.glsl).
+struct GpuImportancePixel {
+    vec4 position;          // xyz render space; w: share of the picture, 0 where nothing is seen
+    vec4 normal;            // xyz unit; w: n.v
+    vec4 view;              // xyz unit, towards the viewer; w: (1 - n.v)^5
+    vec4 albedo;            // diffuse, over pi; w: roughness of the diffuse lobe, negative where it is Lambert's
+    vec4 f0;                // of the glossy lobe; w: f90
+    vec4 lobe;              // alpha^2, Smith's term of the view; -; -
+};
+
 // The imperfect shadow maps of a frame: square maps of one size in one atlas, row by row.
 struct IsmUniforms {
     ivec4 atlas;            // map size (texels), maps a row, maps, points a map
