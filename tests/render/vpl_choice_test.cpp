@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The samplers of virtual point lights against the sum over all texels, on importance maps made of numbers.
+#include "passes/vpl_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 #include <set>
 
-#include "passes/vpl_choice.h"
 #include "render_fixture.h"
 
 namespace bounce::test {
@@ -23,8 +24,8 @@ struct Chosen {
     double texels = 0.0;
 };
 
-// Two lights whose maps differ in size, with importance that spreads over three decades and is nothing in places,
-// and something to be summed up that grows with it, but more slowly.
+// Two lights whose maps differ in size, with importance that spreads over three decades and is nothing in
+// places, and something to be summed up that grows with it, but more slowly.
 struct Problem {
     std::vector<Map> maps = {{8, 8}, {4, 24}};
     std::vector<float> importance;
@@ -109,8 +110,8 @@ class VplChoice : public ::testing::Test {
             builder.read(choices);
             builder.side_effect();
             return [&](const PassResources& resources) {
-                for (const glm::uvec4& c : resources.buffer(choices).read<glm::uvec4>(
-                         static_cast<size_t>(choosing.lights))) {
+                for (const glm::uvec4& c :
+                     resources.buffer(choices).read<glm::uvec4>(static_cast<size_t>(choosing.lights))) {
                     out.push_back({first.at(c.x) + c.y, static_cast<double>(glm::uintBitsToFloat(c.z))});
                 }
             };
@@ -132,8 +133,7 @@ class VplChoice : public ::testing::Test {
         double squares = 0.0;
         for (int seed = 1; seed <= seeds; ++seed) {
             double sum = 0.0;
-            for (const Chosen& c :
-                 choose(problem, {sampling, lights, steps, static_cast<uint32_t>(seed)})) {
+            for (const Chosen& c : choose(problem, {sampling, lights, steps, static_cast<uint32_t>(seed)})) {
                 sum += problem.value.at(c.texel) * c.texels;
             }
             const double d = sum - mean;
@@ -153,9 +153,10 @@ TEST_F(VplChoice, EstimatesTheSumOverAllTexelsWithoutBias) {
     const struct {
         VplSampling sampling;
         int steps;
-    } cases[] = {{VplSampling::uniform3, 1},   {VplSampling::inverse2, 1},          {VplSampling::inverse3, 1},
-                 {VplSampling::metropolis, 1}, {VplSampling::metropolis_single, 5}, {VplSampling::resampled, 2},
-                 {VplSampling::resampled, 5},  {VplSampling::resampled, 20}};
+    } cases[] = {{VplSampling::uniform3, 1},          {VplSampling::inverse2, 1},
+                 {VplSampling::inverse3, 1},          {VplSampling::metropolis, 1},
+                 {VplSampling::metropolis_single, 5}, {VplSampling::resampled, 2},
+                 {VplSampling::resampled, 5},         {VplSampling::resampled, 20}};
     for (const auto& [sampling, steps] : cases) {
         const Estimate e = estimate(problem, sampling, steps);
         // Four standard deviations, and a part in a thousand for sums in single precision.
@@ -201,8 +202,7 @@ TEST_F(VplChoice, LongChainsOfMetropolisComeNearTheSum) {
 // Figure 6: without the reduction short chains are far off, with it they are not.
 TEST_F(VplChoice, WeightsReduceTheBiasOfShortChains) {
     const Problem problem;
-    const double reduced =
-        std::abs(estimate(problem, VplSampling::metropolis, 2).mean - problem.sum());
+    const double reduced = std::abs(estimate(problem, VplSampling::metropolis, 2).mean - problem.sum());
     const double unreduced =
         std::abs(estimate(problem, VplSampling::metropolis_unreduced, 2).mean - problem.sum());
     EXPECT_LT(reduced, 0.5 * unreduced);
