@@ -88,6 +88,7 @@ Settings preset_settings(Preset preset) {
             out.technique = Technique::ism;
             out.vpls = 1024;
             out.world_vpls = 1024;  // "VPLs are generated on the sphere to simulate environment map lighting"
+            out.world_sampling = WorldSampling::drawn;
             out.vpl_sampling = VplSampling::metropolis;
             out.vpl_importance = Importance::view;
             out.importance_pixels = 0.1F;

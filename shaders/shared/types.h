@@ -53,6 +53,13 @@ struct WorldUniforms {
                             // prefiltered image, -
 };
 
+// The world as cells that lights are drawn from (lib/sphere.glsl).
+struct SphereUniforms {
+    vec4 render_from_environment[3];  // rows of the rotation
+    ivec4 grid;             // cells across and down, -, -
+    vec4 light;             // strength, weight of a luminance where visibility is averaged for reflections, -, -
+};
+
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
