@@ -19,8 +19,7 @@ VplSet add_vpls_from_sphere(FrameGraph& graph, const PassContext& context, const
         sphere.cells->bind_storage(SSBO_SPHERE);
     };
     const std::string of = ", world";
-    const BufferHandle importance =
-        add_vpl_importance(graph, context, {map}, drawing.view, chosen, of);
+    const BufferHandle importance = add_vpl_importance(graph, context, {map}, drawing.view, chosen, of);
     const ImportanceTables tables = add_importance_sums(graph, context, {map}, importance, of, false);
     const VplSampling sampling = is_chosen(drawing.sampling) ? drawing.sampling : VplSampling::inverse2;
     const BufferHandle choices =
