@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Grids of scenes: what moves and deforms is where it is in the frame, and light of the world and of emissive surfaces
-// bounces through them as that of lights does.
+// Grids of scenes: what moves and deforms is where it is in the frame, and light of the world and of emissive
+// surfaces bounces through them as that of lights does.
 #include "avg_fixture.h"
 
 namespace bounce::test {
@@ -34,8 +34,7 @@ class AvgOfAScene : public ::testing::Test {
             const glm::dvec3 ac = glm::dvec3(corners[i + 2]) - a;
             area += 0.5 * glm::length(glm::cross(ab, ac));
             for (int k = 0; k < 20; ++k) {
-                ASSERT_TRUE(
-                    holds(grid, a + part(random) * ab + part(random) * ac, main_axis(glm::cross(ab, ac))))
+                ASSERT_TRUE(holds(grid, a + part(random) * ab + part(random) * ac, glm::cross(ab, ac)))
                     << what << ", triangle " << i / 3;
             }
         }
@@ -51,12 +50,13 @@ TEST_F(AvgOfAScene, ThingsThatMoveAreWhereTheyAreInTheFrame) {
     scene::Node node;
     node.mesh = mesh;
     animate(scene, add_node(scene, node), scene::Property::node_translation, {0.0F, 0.0F, 0.0F},
-            {3.0F, 0.7F, -0.4F});  // far out of the grid that it begins in
-    for (const double time : {0.0, 0.5, 1.0}) {
+            {3.0F, 0.7F, -0.4F});                 // far out of the grid that it begins in
+    for (const double time : {0.0, 0.45, 1.0}) {  // no side on the border of two voxels
         std::vector<glm::vec3> now = corners;
         for (glm::vec3& corner : now) {
             corner += static_cast<float>(time) * glm::vec3(3.0F, 0.7F, -0.4F);
         }
+        SCOPED_TRACE(time);
         expect_box(trace(scene, traced(32), time).grid, now, "moved");
     }
 }
@@ -80,6 +80,7 @@ TEST_F(AvgOfAScene, ThingsThatDeformAreWhereTheyAreInTheFrame) {
             now.emplace_back(rotated(30.0, {0.0, 1.0, 0.3}) *
                              glm::dvec4(glm::dvec3(corner) * (1.0 + 2.0 * time), 1.0));
         }
+        SCOPED_TRACE(time);
         expect_box(trace(scene, traced(32), time).grid, now, "deformed");
     }
 }
@@ -103,15 +104,18 @@ TEST_F(AvgOfAScene, LightIsKeptInAClosedBoxThatDeforms) {
     for (const double time : {0.0, 0.5, 1.0}) {
         const Traced result = trace(scene, traced(32, 3), time);
         for (size_t k = 0; k < 3; ++k) {
-            EXPECT_NEAR(result.flux_w(k).g / (100.0 * std::pow(0.5, static_cast<double>(k + 1))), 1.0, 1e-4)
-                << "bounce " << k + 1 << ", time " << time;
+            // 1e-4 is rounding; two rays of 1,024 may leave where walls bend (avg_leak_test.cpp), and with
+            // them their light.
+            const double kept = result.flux_w(k).g / (100.0 * std::pow(0.5, static_cast<double>(k + 1)));
+            EXPECT_LE(kept, 1.0 + 1e-4) << "bounce " << k + 1 << ", time " << time;
+            EXPECT_GE(kept, 1.0 - 2.0 / 1024.0 - 1e-4) << "bounce " << k + 1 << ", time " << time;
         }
     }
 }
 
 TEST_F(AvgOfAScene, TheWorldsLightFillsAWhiteCorner) {
-    // A white corner under a world of 1 shows 1 once all bounces are there (world_test.cpp), whatever these are drawn
-    // from; of light that comes to it directly it shows 0.74 (the form factor of its wall).
+    // A white corner under a world of 1 shows 1 once all bounces are there (world_test.cpp), whatever these
+    // are drawn from; of light that comes to it directly it shows 0.74 (the form factor of its wall).
     scene::Scene scene;
     scene.from_blender = true;
     scene.world = {glm::vec3(1.0F), 1.0F};
