@@ -128,8 +128,9 @@ TEST_F(AvgGridOf, WallsOfABoxHasFlatSlabsAndTheirColour) {
     int all = 0;
     for (const auto& [place, surface] : grid.sorted()) {
         // Of what faces up, and of what faces down; one of them is empty.
-        const double up = (surface.slab.y - surface.slab.x) / AVG_SLAB_STEPS;
-        const double down = (surface.slab.w - surface.slab.z) / AVG_SLAB_STEPS;
+        const glm::dvec4 slabs = glm::dvec4(surface.slab) / AVG_SLAB_STEPS;
+        const double up = slabs.y - slabs.x;
+        const double down = slabs.w - slabs.z;
         ++all;
         flat += (up < 0.0) != (down < 0.0) && std::max(up, down) < 0.01 ? 1 : 0;
         for (int c = 0; c < 3; ++c) {
