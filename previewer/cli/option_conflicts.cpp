@@ -64,6 +64,10 @@ const char* vpl_option(const RenderOptions& o, const Settings& s) {
                                       {"--bounces", o.bounces.has_value()},
                                       {"--interleave", o.interleave.has_value()},
                                       {"--vpl-sampling", o.vpl_sampling.has_value()},
+                                      {"--vpl-importance", o.vpl_importance.has_value()},
+                                      {"--importance-pixels", o.importance_pixels.has_value()},
+                                      {"--importance-floor", o.importance_floor.has_value()},
+                                      {"--vpl-steps", o.vpl_steps.has_value()},
                                       {"--shading", o.shading.has_value()},
                                       {"--simplify", o.simplify.has_value()},
                                       {"--simplify-error", o.simplify_error.has_value()},
@@ -137,6 +141,33 @@ std::string avg_conflict(const RenderOptions& o, const Settings& s) {
     return {};
 }
 
+// Options of how the first bounce's lights are drawn that are not used.
+std::string sampling_conflict(const RenderOptions& o, const Settings& s) {
+    if (o.world_sampling && s.world_vpls == 0) {
+        return "--world-sampling has no effect with --world-vpls 0";
+    }
+    if (s.technique != Technique::ism) {
+        return {};
+    }
+    if (o.vpl_steps && !passes::is_chain(s.vpl_sampling)) {
+        return fmt::format("--vpl-steps has no effect with --vpl-sampling {}, which runs no chains",
+                           name_of(s.vpl_sampling));
+    }
+    const bool drawn = s.vpl_sampling != VplSampling::uniform && s.vpl_sampling != VplSampling::uniform3 &&
+                       s.vpl_sampling != VplSampling::avg;
+    const bool world = s.world_sampling == WorldSampling::drawn && s.world_vpls > 0;
+    if (o.vpl_importance && !drawn && !world && s.show != Show::importance) {
+        return fmt::format("--vpl-importance has no effect with --vpl-sampling {}, which does not ask for it",
+                           name_of(s.vpl_sampling));
+    }
+    const char* option = first_given({{"--importance-pixels", o.importance_pixels.has_value()},
+                                      {"--importance-floor", o.importance_floor.has_value()}});
+    if (option != nullptr && s.vpl_importance == Importance::flux) {
+        return fmt::format("{} has no effect with importance by flux; give --vpl-importance view", option);
+    }
+    return {};
+}
+
 std::string emitter_conflict(const RenderOptions& o, const Settings& s) {
     if (o.emitter_panels.value_or(0) > 0 && s.emitter_vpls == 0) {
         return "--emitter-panels has no effect with --emitter-vpls 0, where emissive surfaces light nothing";
@@ -205,8 +236,8 @@ std::string layer_conflict(const RenderOptions& o, const Settings& s) {
         return fmt::format("{} has no effect with --show {}; it is an option of {}", option, name_of(s.show),
                            layers);
     };
-    if (o.light && !shows_rsm(s.show)) {
-        return unused("--light", "the rsm- layers");
+    if (o.light && !shows_light_map(s.show)) {
+        return unused("--light", "the rsm- layers and importance");
     }
     if (o.vpl && !shows_vpl_maps(s.show)) {
         return unused("--vpl", "--show ism, ism-splats and vpl-visibility");
@@ -267,9 +298,9 @@ std::string samples_conflict(const RenderOptions& o, const Settings& s) {
 }  // namespace
 
 std::string option_conflict(const RenderOptions& o, const Settings& s) {
-    for (std::string conflict :
-         {technique_conflict(o, s), shadow_conflict(o, s), avg_conflict(o, s), emitter_conflict(o, s),
-          bounce_conflict(o, s), layer_conflict(o, s), samples_conflict(o, s), reuse_conflict(o, s)}) {
+    for (std::string conflict : {technique_conflict(o, s), shadow_conflict(o, s), avg_conflict(o, s),
+                                 emitter_conflict(o, s), bounce_conflict(o, s), sampling_conflict(o, s),
+                                 layer_conflict(o, s), samples_conflict(o, s), reuse_conflict(o, s)}) {
         if (!conflict.empty()) {
             return conflict;
         }

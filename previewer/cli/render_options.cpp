@@ -22,11 +22,10 @@ namespace bounce::cli {
 namespace {
 
 const std::map<std::string, Preset>& presets() {
-    static const std::map<std::string, Preset> names = {{"auto", Preset::automatic},
-                                                        {"rsm2005", Preset::rsm2005},
-                                                        {"ism2008", Preset::ism2008},
-                                                        {"lv2009", Preset::lv2009},
-                                                        {"avg2012", Preset::avg2012}};
+    static const std::map<std::string, Preset> names = {
+        {"auto", Preset::automatic},  {"rsm2005", Preset::rsm2005},
+        {"ism2008", Preset::ism2008}, {"lv2009", Preset::lv2009},
+        {"avg2012", Preset::avg2012}, {"metropolis2013", Preset::metropolis2013}};
     return names;
 }
 
@@ -111,8 +110,27 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
         "--vpl-sampling", o.vpl_sampling, setting_names<VplSampling>(),
         "How those of the first bounce are drawn from the reflective shadow maps: one for each cell of "
         "equal flux, or texels at the points of the Halton sequence, as in the 2009 paper; avg: without "
-        "these maps, where rays from the lights meet the approximate visibility grid, as in the 2012 paper",
+        "these maps, where rays from the lights meet the approximate visibility grid, as in the 2012 paper; "
+        "the others choose texels of all lights as in the 2013 paper: evenly with three numbers, by inverse "
+        "transform with two or three, by Metropolis' chains weighed as the paper does, by their first "
+        "proposal or with their start-up bias, or by chains that resample",
         name_of(d.vpl_sampling));
+    group.one_of("--vpl-importance", o.vpl_importance, setting_names<Importance>(),
+                 "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
+                 "unhidden, as in the 2013 paper",
+                 name_of(d.vpl_importance));
+    group.number(
+        "--importance-pixels", o.importance_pixels,
+        "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; 16,384 at most",
+        fmt::format("{:g}", d.importance_pixels));
+    group.number("--importance-floor", o.importance_floor,
+                 "What a light counts for at least there, of what it would show on white across the whole "
+                 "scene, 0 to 1; with 0 what no pixel of these shows is never drawn, as in the paper",
+                 fmt::format("{:g}", d.importance_floor));
+    group.number(
+        "--vpl-steps", o.vpl_steps,
+        fmt::format("Proposals of each chain of Metropolis' and resampling, 1 to {}", k_most_vpl_steps),
+        std::to_string(d.vpl_steps));
     group.one_of(
         "--shading", o.shading, setting_names<Shading>(),
         "Bounced light is gathered on what the camera sees, or, as by the 2009 paper's hybrid method, on "
@@ -264,9 +282,9 @@ void set(const std::optional<std::string>& given, const std::map<std::string, T>
     }
 }
 
-// The rsm- layers show one light's map: there must be such a light.
+// Some layers show one light's map: there must be such a light.
 void require_shown_light(const Settings& settings, const scene::Scene& scene) {
-    if (!shows_rsm(settings.show)) {
+    if (!shows_light_map(settings.show)) {
         return;
     }
     const auto lights = std::count_if(
@@ -310,6 +328,11 @@ void RenderOptions::add_to(CLI::App& command) {
             "not bounce",
             k_most_vpls),
         std::to_string(Settings{}.world_vpls));
+    group.one_of("--world-sampling", world_sampling, setting_names<WorldSampling>(),
+                 "How these are chosen: one for each part of the world's image, or evenly where it has none; "
+                 "drawn: from cells of the sphere, as --vpl-sampling and --vpl-importance draw those of a "
+                 "first bounce from texels",
+                 name_of(Settings{}.world_sampling));
     group.number(
         "--emitter-vpls", emitter_vpls,
         fmt::format("Virtual point lights that stand for emissive surfaces, each with a shadow map, in any "
@@ -400,6 +423,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
     set(world_vpls, out.world_vpls);
+    set(world_sampling, setting_names<WorldSampling>(), out.world_sampling);
     set(emitter_vpls, out.emitter_vpls);
     set(emitter_panels, out.emitter_panels);
     set(bounce_places, out.bounce_places);
@@ -409,6 +433,10 @@ Settings RenderOptions::settings_without_scene() const {
     set(avg_paths, setting_names<AvgPaths>(), out.avg_paths);
     set(interleave, out.interleave);
     set(vpl_sampling, setting_names<VplSampling>(), out.vpl_sampling);
+    set(vpl_importance, setting_names<Importance>(), out.vpl_importance);
+    set(importance_pixels, out.importance_pixels);
+    set(importance_floor, out.importance_floor);
+    set(vpl_steps, out.vpl_steps);
     set(shading, setting_names<Shading>(), out.shading);
     set(simplify_error, out.simplify.error);
     set(map_projection, setting_names<MapProjection>(), out.map_projection);

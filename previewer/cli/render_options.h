@@ -52,6 +52,11 @@ struct RenderOptions {
     std::optional<std::string> avg_hits;
     std::optional<std::string> avg_paths;
     std::optional<std::string> vpl_sampling;
+    std::optional<std::string> vpl_importance;
+    std::optional<std::string> world_sampling;
+    std::optional<float> importance_pixels;
+    std::optional<float> importance_floor;
+    std::optional<int> vpl_steps;
     std::optional<std::string> shading;
     std::optional<std::string> simplify;  // a number, or auto
     std::optional<double> simplify_error;

@@ -147,6 +147,7 @@ ordered_json settings_json(const Settings& s) {
                         {"emitter_vpls", s.emitter_vpls},
                         {"emitter_panels", s.emitter_panels},
                         {"transparent_layers", s.transparent_layers}};
+    out["world_sampling"] = name_of(s.world_sampling);
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl || s.direct_shadows == DirectShadows::ism) {
         out["shadow_samples"] = s.used_shadow_samples();
@@ -187,6 +188,14 @@ ordered_json settings_json(const Settings& s) {
     out["near_field"] = s.near_field;
     out["glossy"] = s.glossy_bounces;
     out["vpl_sampling"] = name_of(s.vpl_sampling);
+    out["vpl_importance"] = name_of(s.vpl_importance);
+    if (s.vpl_importance == Importance::view) {
+        out["importance_pixels"] = s.importance_pixels;
+        out["importance_floor"] = s.importance_floor;
+    }
+    if (passes::is_chain(s.vpl_sampling)) {
+        out["vpl_steps"] = s.vpl_steps;
+    }
     out["shading"] = name_of(s.shading);
     if (s.simplifies()) {
         out["simplify"] = s.simplify.ratio > 0.0 ? ordered_json(s.simplify.ratio) : ordered_json("auto");

@@ -22,6 +22,33 @@ void add_rsm_layer_view(FrameGraph& graph, const PassContext& context, const Rsm
     });
 }
 
+void add_importance_view(FrameGraph& graph, const PassContext& context, const std::vector<VplSource>& sources,
+                         size_t shown, const VplImportance& importance, TextureHandle target) {
+    glm::ivec4 map(0, sources[shown].light.rsm_size, 0, importance.row_count);
+    for (size_t i = 0; i < sources.size(); ++i) {
+        const LightPass& light = sources[i].light;
+        const int texels = light.rsm_size * light.rsm_size * static_cast<int>(light.faces.size());
+        map.x += i < shown ? texels : 0;
+        map.z += texels;
+    }
+    graph.add_pass("importance view", [&](PassBuilder& builder) {
+        builder.read(importance.map);
+        builder.read(importance.rows);
+        const TextureHandle out = builder.write(target);
+        return [context, light = sources[shown].light, map, importance, out](const PassResources& resources) {
+            context.programs.compute("passes/importance_view.comp", light_defines(light)).use();
+            context.uniforms.bind(UBO_FRAME, context.frame);
+            context.uniforms.bind(UBO_LIGHT, light.uniforms);
+            resources.buffer(importance.map).bind_storage(SSBO_IMPORTANCE);
+            resources.buffer(importance.rows).bind_storage(SSBO_ROW_SUMS);
+            resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
+            glUniform4i(0, map.x, map.y, map.z, map.w);
+            dispatch_2d(context.width, context.height);
+            finish_writes();
+        };
+    });
+}
+
 void add_interpolation_view(FrameGraph& graph, const PassContext& context, const GBuffer& gbuffer,
                             TextureHandle irradiance, TextureHandle target) {
     graph.add_pass("interpolation view", [&](PassBuilder& builder) {

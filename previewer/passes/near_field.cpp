@@ -56,6 +56,7 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
             builder.read(source.rsm);
         }
         builder.read(inputs.importance.rows);
+        if (inputs.importance.map.valid()) builder.read(inputs.importance.map);
         builder.read(list);
         builder.read(counts);
         out = builder.write(light.bounced);
@@ -69,21 +70,30 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
             resources.texture(out).bind_image(IMG_OUT, GL_READ_WRITE);
             glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, resources.buffer(counts).id());
             const int rounds = std::max(k_least_blend / (inputs.interleave * inputs.interleave), 1);
+            size_t number = 0;
+            int first_texel = 0;
             for (const VplSource& source : inputs.sources) {
                 gl::Defines defines = light_defines(source.light);
                 if (inputs.glossy) defines["GLOSSY"] = "1";
                 if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
+                const bool mapped = inputs.importance.map.valid() && inputs.importance.even.empty();
+                if (mapped) read_importance_map(defines);
                 context.programs.compute("passes/near_field.comp", defines).use();
+                if (mapped) bind_importance_map(resources, inputs.importance.map, first_texel);
                 context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
                 resources.texture(source.rsm).bind_image(IMG_RSM, GL_READ_ONLY);
                 glUniform1i(0, inputs.importance.row_count);
                 const glm::vec2 turns = seeded_turns(inputs.seed);
                 glUniform3f(2, turns.x, turns.y, inputs.extent);
+                glUniform1f(3, inputs.importance.even.empty() ? 0.0F : inputs.importance.even[number]);
                 for (int round = 0; round < rounds; ++round) {
                     glUniform2i(1, round, rounds);
                     glDispatchComputeIndirect(0);
                     finish_writes();
                 }
+                ++number;
+                first_texel += source.light.rsm_size * source.light.rsm_size *
+                               static_cast<int>(source.light.faces.size());
             }
         };
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/pass_context.h"
 
+#include <algorithm>
+
 namespace bounce::passes {
 namespace {
 
@@ -178,6 +180,12 @@ void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, cons
 void dispatch_2d(int width, int height) {
     glDispatchCompute(static_cast<GLuint>((width + GROUP_2D - 1) / GROUP_2D),
                       static_cast<GLuint>((height + GROUP_2D - 1) / GROUP_2D), 1);
+}
+
+void dispatch_1d(int threads) {
+    const int groups = (threads + GROUP_1D - 1) / GROUP_1D;
+    glDispatchCompute(static_cast<GLuint>(std::min(groups, MOST_GROUPS)),
+                      static_cast<GLuint>((groups + MOST_GROUPS - 1) / MOST_GROUPS), 1);
 }
 
 void finish_writes() {

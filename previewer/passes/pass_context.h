@@ -104,6 +104,9 @@ void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, cons
 
 // Work groups that cover a picture, and the barrier after which everything written is seen.
 void dispatch_2d(int width, int height);
+// Of GROUP_1D threads each; shaders find their place by gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x, or
+// by gl_GlobalInvocationID.x where there are at most MOST_GROUPS groups.
+void dispatch_1d(int threads);
 void finish_writes();
 
 }  // namespace bounce::passes

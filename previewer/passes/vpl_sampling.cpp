@@ -2,100 +2,60 @@
 #include "passes/vpl_sampling.h"
 
 #include <algorithm>
-#include <functional>
+
+#include "passes/vpl_choice.h"
+#include "passes/vpl_map_source.h"
 
 namespace bounce::passes {
 namespace {
 
-// One map, or maps of one kind, as the two shaders see it.
-struct Source {
-    gl::Defines defines;
-    int size = 0;  // texels a row
-    int rows = 0;
-    glm::vec2 share{0.0F, 1.0F};  // uniform: which part of the sequence's first coordinate is this source's
-    std::function<void(PassBuilder&)> declare;
-    std::function<void(const PassResources&)> bind;
+// What lights are drawn by.
+struct Tables {
+    ImportanceTables buffers;  // importance is invalid where texels' flux is
+    BufferHandle choices;      // invalid where lights are not chosen first
 };
 
-gl::Defines with_lobes(gl::Defines defines, const PassContext& context, bool glossy) {
-    if (glossy) defines["GLOSSY"] = "1";
-    if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
-    return defines;
-}
-
-DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vector<Source>& sources,
-                   const VplSet& layout, const std::string& of, bool even_rows,
-                   VplSampling sampling = VplSampling::inverse_transform) {
+// The lights themselves.
+BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::vector<MapSource>& sources,
+                      const Tables& tables, const VplSet& layout, const std::string& of,
+                      VplSampling sampling) {
     const bool uniform = sampling == VplSampling::uniform;
-    int rows = 0;
-    size_t texels = 0;
-    for (const Source& source : sources) {
-        rows += source.rows;
-        texels += static_cast<size_t>(source.rows) * static_cast<size_t>(source.size);
-    }
-    // Calls visit(source, its first row, its first texel).
-    const auto for_each = [sources](const auto& visit) {
-        int row = 0;
-        int texel = 0;
-        for (const Source& source : sources) {
-            visit(source, row, texel);
-            row += source.rows;
-            texel += source.rows * source.size;
-        }
-    };
-    BufferHandle sums;
-    BufferHandle texel_sums;
-    graph.add_pass("vpl importance" + of, [&](PassBuilder& builder) {
-        for (const Source& source : sources) {
-            source.declare(builder);
-        }
-        sums = builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float));
-        texel_sums = builder.create_buffer("texel sums", texels * sizeof(float));
-        return [context, for_each, rows, sums, texel_sums, even_rows](const PassResources& resources) {
-            for_each([&](const Source& source, int row, int texel) {
-                context.programs.compute("passes/vpl_row_sums.comp", source.defines).use();
-                source.bind(resources);
-                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
-                glUniform3i(0, row, texel, source.rows);
-                glDispatchCompute(static_cast<GLuint>(std::min(source.rows, MOST_GROUPS)),
-                                  static_cast<GLuint>((source.rows + MOST_GROUPS - 1) / MOST_GROUPS), 1);
-            });
-            finish_writes();
-            gl::Defines defines;
-            if (even_rows) defines["EVEN"] = "1";
-            context.programs.compute("passes/vpl_scan.comp", defines).use();
-            resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-            glUniform1i(0, rows);
-            glDispatchCompute(1, 1, 1);
-            finish_writes();
-        };
-    });
-    DrawnVpls out{layout, {sums, rows}};
+    const bool chosen = tables.choices.valid();
+    BufferHandle vpls;
     graph.add_pass("vpls" + of, [&](PassBuilder& builder) {
-        for (const Source& source : sources) {
+        const BufferHandle importance = tables.buffers.importance;
+        const bool mapped = importance.valid() && !chosen && !uniform;
+        for (const MapSource& source : sources) {
             source.declare(builder);
         }
-        if (!uniform) {
-            builder.read(sums);
-            builder.read(texel_sums);
+        if (chosen) {
+            builder.read(tables.choices);
+        } else if (!uniform) {
+            builder.read(tables.buffers.rows);
+            builder.read(tables.buffers.texels);
+            if (mapped) builder.read(importance);
         }
-        const BufferHandle vpls =
-            builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
-        out.set.vpls = vpls;
-        return [context, for_each, layout, rows, sums, texel_sums, vpls,
-                uniform](const PassResources& resources) {
-            for_each([&](const Source& source, int row, int texel) {
+        vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
+        return [context, sources, layout, rows = rows_of(sources), tables, vpls, uniform, chosen, mapped,
+                importance](const PassResources& resources) {
+            GLuint number = 0;
+            for_each_map(sources, [&](const MapSource& source, int row, int texel) {
                 gl::Defines defines = source.defines;
                 if (uniform) defines["HALTON"] = "1";
+                if (chosen) defines["CHOSEN"] = "1";
+                if (mapped) read_importance_map(defines);
                 if (layout.seed != 0) defines["SEEDED"] = "1";
                 context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
-                if (uniform) {
+                if (chosen) {
+                    resources.buffer(tables.choices).bind_storage(SSBO_VPL_CHOICES);
+                    glUniform1ui(3, number);
+                } else if (uniform) {
                     glUniform2f(3, source.share.x, source.share.y);
                 } else {
-                    resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-                    resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                    resources.buffer(tables.buffers.rows).bind_storage(SSBO_ROW_SUMS);
+                    resources.buffer(tables.buffers.texels).bind_storage(SSBO_TEXEL_SUMS);
+                    if (mapped) bind_importance_map(resources, importance, texel);
                 }
                 resources.buffer(vpls).bind_storage(SSBO_VPLS_OUT);
                 if (layout.seed != 0) {
@@ -105,11 +65,44 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
                 glUniform4i(0, row, source.rows, rows, texel);
                 glUniform3i(1, layout.interleave, layout.subset, layout.cell_columns);
                 glUniform3i(2, layout.maps, layout.map_size, layout.columns);
-                glDispatchCompute((static_cast<GLuint>(layout.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+                dispatch_1d(layout.maps);
+                ++number;
             });
             finish_writes();
         };
     });
+    return vpls;
+}
+
+// Texels that each light stands for, where lights are drawn evenly.
+std::vector<float> even_texels(const std::vector<MapSource>& sources, int lights, VplSampling sampling) {
+    std::vector<float> out;
+    if (sampling == VplSampling::uniform || sampling == VplSampling::uniform3) {
+        for (const MapSource& source : sources) {
+            const float share = sampling == VplSampling::uniform ? source.share.y - source.share.x
+                                                                 : 1.0F / static_cast<float>(sources.size());
+            out.push_back(static_cast<float>(source.texels()) / (static_cast<float>(lights) * share));
+        }
+    }
+    return out;
+}
+
+DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vector<MapSource>& sources,
+                   const VplSet& layout, const std::string& of, bool even_rows, const Drawing& drawing) {
+    const bool chosen = is_chosen(drawing.sampling);
+    BufferHandle importance;
+    if (drawing.view || drawing.map || chosen) {
+        importance = add_vpl_importance(graph, context, sources, drawing.view, layout.maps, of);
+    }
+    Tables tables{add_importance_sums(graph, context, sources, importance, of, even_rows), {}};
+    if (chosen) {
+        tables.choices = add_vpl_choice(graph, context, sources, tables.buffers,
+                                        {drawing.sampling, layout.maps, drawing.steps, layout.seed}, of);
+    }
+    DrawnVpls out{layout,
+                  {tables.buffers.rows, rows_of(sources), importance,
+                   even_texels(sources, layout.maps, drawing.sampling)}};
+    out.set.vpls = add_draw(graph, context, sources, tables, layout, of, drawing.sampling);
     return out;
 }
 
@@ -132,7 +125,7 @@ BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const Vp
             resources.buffer(out).bind_storage(SSBO_VPLS_OUT);
             glUniform1i(0, std::max(set.maps / k_most_compared, 1));
             glUniform1f(1, set.extent);
-            glDispatchCompute((static_cast<GLuint>(set.maps) + GROUP_1D - 1) / GROUP_1D, 1, 1);
+            dispatch_1d(set.maps);
             finish_writes();
         };
     });
@@ -147,9 +140,8 @@ BufferHandle add_traced_spacing(FrameGraph& graph, const PassContext& context, c
 }
 
 DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
-                             const std::vector<VplSource>& sources, VplSet layout, bool glossy,
-                             VplSampling sampling) {
-    std::vector<Source> all;
+                             const std::vector<VplSource>& sources, VplSet layout, const Drawing& drawing) {
+    std::vector<MapSource> all;
     double flux = 0.0;
     for (const VplSource& source : sources) {
         flux += source.light.flux_w;
@@ -161,7 +153,7 @@ DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
         const double after = last ? flux : before + light.flux_w;
         const glm::vec2 share(glm::dvec2(before, after) / flux);
         before = after;
-        all.push_back({with_lobes(light_defines(light), context, glossy), light.rsm_size,
+        all.push_back({with_lobes(light_defines(light), context, drawing.glossy), light.rsm_size,
                        light.rsm_size * static_cast<int>(light.faces.size()), share,
                        [source](PassBuilder& builder) { builder.read(source.rsm); },
                        [context, source](const PassResources& resources) {
@@ -169,7 +161,7 @@ DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
                            resources.texture(source.rsm).bind(TEX_RSM);
                        }});
     }
-    return add_vpls(graph, context, all, layout, "", false, sampling);
+    return add_vpls(graph, context, all, layout, "", false, drawing);
 }
 
 DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, const IrsmSource& source,
@@ -184,26 +176,27 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
         defines["VISIBILITY"] = "1";
         if (source.slope_bias) defines["SLOPE_BIAS"] = "1";
     }
-    const Source only{with_lobes(defines, context, glossy),
-                      splatted ? source.set.map_size : source.set.maps,
-                      splatted ? source.set.map_size * source.set.maps : source.set.points_a_map,
-                      glm::vec2(0.0F, 1.0F),
-                      [source, map](PassBuilder& builder) {
-                          if (map.valid()) builder.read(map);
-                          builder.read(source.set.vpls);
-                          builder.read(source.scene.points);
-                      },
-                      [context, source, map, splatted](const PassResources& resources) {
-                          context.uniforms.bind(UBO_ISM, source.set.uniforms);
-                          context.scene.bind_materials();
-                          source.store->bind_materials();
-                          resources.buffer(source.scene.points).bind_storage(SSBO_POINTS);
-                          resources.buffer(source.set.vpls).bind_storage(SSBO_VPLS);
-                          if (map.valid()) {
-                              resources.texture(map).bind_image(splatted ? IMG_IN : IMG_ISM, GL_READ_ONLY);
-                          }
-                      }};
-    DrawnVpls drawn = add_vpls(graph, context, {only}, layout, ", next bounce", !splatted);
+    const MapSource only{with_lobes(defines, context, glossy),
+                         splatted ? source.set.map_size : source.set.maps,
+                         splatted ? source.set.map_size * source.set.maps : source.set.points_a_map,
+                         glm::vec2(0.0F, 1.0F),
+                         [source, map](PassBuilder& builder) {
+                             if (map.valid()) builder.read(map);
+                             builder.read(source.set.vpls);
+                             builder.read(source.scene.points);
+                         },
+                         [context, source, map, splatted](const PassResources& resources) {
+                             context.uniforms.bind(UBO_ISM, source.set.uniforms);
+                             context.scene.bind_materials();
+                             source.store->bind_materials();
+                             resources.buffer(source.scene.points).bind_storage(SSBO_POINTS);
+                             resources.buffer(source.set.vpls).bind_storage(SSBO_VPLS);
+                             if (map.valid()) {
+                                 resources.texture(map).bind_image(splatted ? IMG_IN : IMG_ISM, GL_READ_ONLY);
+                             }
+                         }};
+    DrawnVpls drawn =
+        add_vpls(graph, context, {only}, layout, ", next bounce", !splatted, {.glossy = glossy, .view = {}});
     if (splatted) {
         drawn.set.vpls = add_spacing(graph, context, drawn.set, nullptr);
     }

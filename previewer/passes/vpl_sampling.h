@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "passes/ism.h"
+#include "passes/vpl_importance.h"
 #include "passes/vpl_maps.h"
 
 namespace bounce::passes {
@@ -28,20 +30,33 @@ struct IrsmSource {
 struct VplImportance {
     BufferHandle rows;
     int row_count = 0;
+    BufferHandle
+        map;  // of each texel (passes/vpl_importance.h); invalid where it is the flux as the maps have it
+    // Per source, where its lights are drawn evenly whatever their importance: texels that each stands for.
+    std::vector<float> even;
 };
 
-// Virtual point lights (GpuVpl) drawn in proportion to the flux that the maps reflect; together they have all
-// of it. Without any flux all are dark. `layout` says how many and where they go; returns it with the buffer
-// filled in. glossy: glossy reflection counts and is kept. sampling uniform: texels at the points of the
-// two-dimensional Halton sequence instead, each with an equal part of the map; lights share its points in
-// proportion to what they send out. The running sums are there all the same, for what reads them.
+// How the lights of a first bounce are drawn.
+struct Drawing {
+    bool glossy = false;  // glossy reflection counts and is kept
+    VplSampling sampling = VplSampling::inverse_transform;
+    int steps = 1;                       // of a chain
+    bool map = false;                    // the importance map is made whether it is needed or not
+    std::optional<ImportanceView> view;  // importance is what the picture shows; else the flux reflected
+};
+
+// Virtual point lights (GpuVpl) drawn in proportion to the importance of the maps' texels; together they have
+// all flux that the maps reflect. Without any all are dark. `layout` says how many and where they go; returns
+// it with the buffer filled in. Sampling uniform: texels at the points of the two-dimensional Halton sequence
+// instead, each with an equal part of the map; lights share its points in proportion to what they send out.
+// The running sums are there all the same, for what reads them. passes/vpl_choice.h has the other samplings.
 struct DrawnVpls {
     VplSet set;
     VplImportance importance;
 };
 [[nodiscard]] DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
-                                           const std::vector<VplSource>& sources, VplSet layout, bool glossy,
-                                           VplSampling sampling);
+                                           const std::vector<VplSource>& sources, VplSet layout,
+                                           const Drawing& drawing);
 // The area that each of a set's lights stands for, from how densely they lie; the lights with it filled in.
 // Of lights that were traced through a grid with these AvgUniforms.
 [[nodiscard]] BufferHandle add_traced_spacing(FrameGraph& graph, const PassContext& context,

@@ -109,10 +109,11 @@ std::string settings_changed(const Settings& before, const Settings& now) {
     }
     // Not how many lights there are: more of them change no mean.
     const auto key = [](const Settings& s) {
-        return std::tuple(s.technique, s.show, s.bounces, s.world_vpls > 0, s.emitter_vpls > 0,
-                          s.emitter_panels, s.bounce_places, s.shading, s.visibility, s.splat,
-                          s.bounce_source, s.ism_size, s.large_triangles, s.drop_hull, s.pull_push,
-                          s.interleave, s.near_field, s.glossy_bounces, s.transparent_layers > 0);
+        return std::tuple(s.technique, s.show, s.bounces, s.world_vpls > 0, s.world_sampling,
+                          s.emitter_vpls > 0, s.emitter_panels, s.bounce_places, s.shading, s.visibility,
+                          s.splat, s.bounce_source, s.vpl_sampling, s.vpl_importance, s.ism_size,
+                          s.large_triangles, s.drop_hull, s.pull_push, s.interleave, s.near_field,
+                          s.glossy_bounces, s.transparent_layers > 0);
     };
     return key(before) == key(now) ? "" : "the settings changed";
 }

@@ -2,6 +2,7 @@
 #include "renderer/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -92,10 +93,38 @@ passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints
                           in.settings.push_threshold}};
 }
 
+// Every texel of every map looks at each of the pixels that importance is judged by; llvmpipe ends a loop
+// after 65,535 iterations.
+constexpr double k_most_viewed_pixels = 16384.0;
+
+// How lights are drawn from maps and from the sphere. gbuffer: where they are gathered.
+passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer, uint32_t seed) {
+    const Settings& settings = in.settings;
+    passes::Drawing out{.glossy = in.plan.glossy,
+                        .sampling = settings.vpl_sampling,
+                        .steps = settings.vpl_steps,
+                        .map = settings.show == Show::importance,
+                        .view = {}};
+    if (settings.vpl_importance == Importance::view) {
+        const double pixels = static_cast<double>(in.context.width) * in.context.height;
+        out.view = {.gbuffer = gbuffer,
+                    .pixels = static_cast<int>(
+                        std::clamp(std::ceil(0.01 * static_cast<double>(settings.importance_pixels) * pixels),
+                                   1.0, k_most_viewed_pixels)),
+                    .floor = settings.importance_floor,
+                    .seed = seed};
+    }
+    return out;
+}
+
 // The world's lights and their shadow maps, which are always drawn from disks.
-passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
+passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                         const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
     world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    if (in.sphere.cells != nullptr) {
+        world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
+    }
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = passes::Splat::disks;
@@ -220,7 +249,7 @@ void add_further_bounces(FrameGraph& graph, const PipelineInputs& in, const pass
 
 // Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
 // lights, then of the world, then of emissive surfaces.
-BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
+BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                           const std::vector<passes::VplSource>& sources, const passes::ScenePoints& scene,
                           const Emitted& emitted) {
     using namespace passes;
@@ -235,7 +264,7 @@ BouncedLights add_bounces(FrameGraph& graph, const PipelineInputs& in,
                        lit);
         } else if (i == 0) {
             const DrawnVpls drawn = add_vpls_from_rsms(graph, in.context, sources, in.bounces[0].lights,
-                                                       in.plan.glossy, in.settings.vpl_sampling);
+                                                       drawing(in, gbuffer, in.bounces[0].lights.seed));
             lit.importance = drawn.importance;
             add_lights(graph, in, scene, drawn.set, lit);
         } else {
@@ -587,7 +616,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     Emitted emitted;
     std::vector<VplSource> sources;
     if (in.plan.world_occluded) {
-        emitted.world = add_world(graph, in, scene);
+        emitted.world = add_world(graph, in, lit_surfaces, scene);
     }
     if (in.plan.emitters) {
         emitted.emitters = add_emitters(graph, in, scene);
@@ -597,7 +626,11 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
         for (const RsmSource& source : gather.sources) {
             sources.push_back({source.light, source.rsm});
         }
-        lit = add_bounces(graph, in, sources, scene, emitted);
+        lit = add_bounces(graph, in, lit_surfaces, sources, scene, emitted);
+        if (in.settings.show == Show::importance && shown < first_places.size()) {
+            add_importance_view(graph, context, sources, first_places[shown], lit.importance, in.target);
+            return;
+        }
         if (add_map_layer(graph, in, gbuffer, lit)) {
             return;
         }

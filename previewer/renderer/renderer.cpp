@@ -235,6 +235,31 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
     }
 }
 
+passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
+    const glm::vec3 radiance = environment_ ? glm::vec3(0.0F) : world.color * world.strength;
+    SphereCells even;
+    if (!environment_) {
+        even = even_cells(radiance);
+    }
+    const SphereCells& cells = environment_ ? environment_->cells() : even;
+    if (!sphere_cells_ || radiance != sphere_radiance_) {
+        sphere_cells_ = gl::Buffer::of("sphere cells", std::span<const glm::vec4>(cells.light));
+        sphere_radiance_ = radiance;
+    }
+    gpu::SphereUniforms uniforms{};
+    if (environment_) {
+        uniforms = environment_->cell_uniforms(world);
+    } else {
+        for (int row = 0; row < 3; ++row) {
+            uniforms.render_from_environment[row][row] = 1.0F;
+        }
+        uniforms.grid = {cells.width, cells.height, 0, 0};
+        uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
+    }
+    return {&sphere_cells_, uniforms_.add(uniforms), cells.width, cells.height,
+            environment_ && environment_->has_suns()};
+}
+
 SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
                                    int soft_lights, int soft_points) const {
     const auto maps = [](int count) { return static_cast<size_t>(std::max(count, 0)); };
@@ -415,6 +440,10 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         disks.bounce_source = BounceSource::points;
         out.world = make_bounce(layout, disks);
         out.world.lights.distant = true;
+        // Parts of an image are always the same; pictures whose mean is sought have other lights each.
+        if (settings.world_sampling == WorldSampling::drawn || (environment_ && seed != 0)) {
+            out.sphere = prepare_sphere(pose.world);
+        }
         out.world.lights.image = environment_ != nullptr;
     }
     for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
@@ -786,6 +815,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .bounces = bounces.bounces,
                 .world = bounces.world,
                 .world_lights = &world_lights_,
+                .sphere = bounces.sphere,
                 .image = image,
                 .world_bounces = bounces.world_bounces,
                 .emitter_store = emitters_.get(),

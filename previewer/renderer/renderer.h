@@ -113,6 +113,7 @@ class Renderer {
     struct LitBounces {
         std::vector<Bounce> bounces;  // of the scene's lights
         Bounce world;                 // its own lights, where they are planned
+        passes::SphereSource sphere;  // that they are drawn from, where they are
         std::vector<Bounce> world_bounces;
         Bounce emitters;  // likewise
         std::vector<Bounce> emitter_bounces;
@@ -122,6 +123,8 @@ class Renderer {
         int triangles = 0;                           // large ones in the maps of lights within the scene
         int soft_points = 0;                         // in each imperfect map of a place on a light
     };
+    // The cells of the sphere, uploaded where they changed.
+    [[nodiscard]] passes::SphereSource prepare_sphere(const scene::World& world);
     // A light whose soft shadow has imperfect maps: which of the frame's, and where it stands.
     struct Imperfect {
         size_t light = 0;
@@ -177,7 +180,9 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
-    scene::Bounds first_bounds_;  // where the animation begins
+    gl::Buffer sphere_cells_;
+    glm::vec3 sphere_radiance_{-1.0F};  // that the cells were made of; of an image: 0
+    scene::Bounds first_bounds_;        // where the animation begins
     gl::Buffer avg_rays_;
     gl::Buffer avg_numbers_;
     std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps

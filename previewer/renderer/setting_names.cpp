@@ -31,7 +31,28 @@ const std::map<std::string, VplSampling>& setting_names<VplSampling>() {
     static const std::map<std::string, VplSampling> names = {
         {"inverse-transform", VplSampling::inverse_transform},
         {"uniform", VplSampling::uniform},
+        {"uniform3", VplSampling::uniform3},
+        {"inverse2", VplSampling::inverse2},
+        {"inverse3", VplSampling::inverse3},
+        {"metropolis", VplSampling::metropolis},
+        {"metropolis-single", VplSampling::metropolis_single},
+        {"metropolis-unreduced", VplSampling::metropolis_unreduced},
+        {"resampled", VplSampling::resampled},
         {"avg", VplSampling::avg}};
+    return names;
+}
+
+template <>
+const std::map<std::string, Importance>& setting_names<Importance>() {
+    static const std::map<std::string, Importance> names = {{"flux", Importance::flux},
+                                                            {"view", Importance::view}};
+    return names;
+}
+
+template <>
+const std::map<std::string, WorldSampling>& setting_names<WorldSampling>() {
+    static const std::map<std::string, WorldSampling> names = {{"parts", WorldSampling::parts},
+                                                               {"drawn", WorldSampling::drawn}};
     return names;
 }
 
@@ -98,6 +119,7 @@ const std::map<std::string, Show>& setting_names<Show>() {
                                                       {"rsm-position", Show::rsm_position},
                                                       {"rsm-normal", Show::rsm_normal},
                                                       {"rsm-flux", Show::rsm_flux},
+                                                      {"importance", Show::importance},
                                                       {"interpolation", Show::interpolation},
                                                       {"vpls", Show::vpls},
                                                       {"ism-splats", Show::ism_splats},

@@ -40,6 +40,8 @@ using Splat = passes::Splat;
 using PullPush = passes::PullPush;
 using VplSampling = passes::VplSampling;
 using BounceSource = passes::BounceSource;
+using Importance = passes::Importance;
+using WorldSampling = passes::WorldSampling;
 using AvgHits = passes::AvgHits;
 using AvgPaths = passes::AvgPaths;
 using MapProjection = passes::MapProjection;
@@ -53,6 +55,7 @@ enum class Show {
     rsm_position,
     rsm_normal,
     rsm_flux,
+    importance,      // what each texel of a light's reflective shadow map counts for, over the mean
     interpolation,   // red where the indirect light was evaluated in full
     vpls,            // the picture, dimmed, with a dot for each virtual point light
     ism_splats,      // the atlas before pull-push
@@ -73,6 +76,11 @@ enum class Show {
 [[nodiscard]] inline bool shows_rsm(Show show) {
     return show == Show::rsm_depth || show == Show::rsm_position || show == Show::rsm_normal ||
            show == Show::rsm_flux;
+}
+
+// One light's reflective shadow map, or what its texels count for.
+[[nodiscard]] inline bool shows_light_map(Show show) {
+    return shows_rsm(show) || show == Show::importance;
 }
 
 // Shadow maps of virtual point lights, or what they leave lit.
@@ -107,13 +115,19 @@ struct Settings {
 
     // Virtual point lights and imperfect shadow maps.
     int bounces = 1;
-    int vpls = 256;          // of the first bounce
-    int bounce_vpls = 128;   // of each further one
-    int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
+    int vpls = 256;         // of the first bounce
+    int bounce_vpls = 128;  // of each further one
+    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
+    WorldSampling world_sampling = WorldSampling::parts;
     int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
     int bounce_places = 4;   // on a large area light, that its bounced light starts from; a power of two
     int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most
     VplSampling vpl_sampling = VplSampling::inverse_transform;  // of the first bounce
+    Importance vpl_importance = Importance::flux;               // that these are drawn by
+    float importance_pixels = 0.1F;  // of the picture's pixels that a light's view is judged by, per cent
+    // What a light counts for at least, of what it would show on white across the whole scene.
+    float importance_floor = 0.05F;
+    int vpl_steps = 10;  // proposals of a chain, where lights are drawn by chains
     Shading shading = Shading::deferred;
     scene::Simplification simplify{};  // of meshes that are drawn simplified
     Visibility visibility = Visibility::ism;

@@ -72,6 +72,19 @@ std::string soft_shadow_size_refusal(const Settings& s) {
     return map_size_refusal("--soft-shadow-size", size);
 }
 
+std::string importance_refusal(const Settings& s) {
+    // NaN is refused, too.
+    if (!(s.importance_pixels > 0.0F && s.importance_pixels <= k_most_importance_pixels)) {
+        return fmt::format(
+            "--importance-pixels is {:g}; give a number above 0 and up to {:g}, per cent of the picture's",
+            s.importance_pixels, k_most_importance_pixels);
+    }
+    if (!(s.importance_floor >= 0.0F && s.importance_floor <= 1.0F)) {
+        return fmt::format("--importance-floor is {:g}; give a number from 0 to 1", s.importance_floor);
+    }
+    return {};
+}
+
 std::string ism_refusal(const Settings& s) {
     for (const std::string& refusal :
          {out_of("--vpls", s.vpls, 1, k_most_vpls, "give a number"),
@@ -162,6 +175,7 @@ std::string settings_refusal(const Settings& s) {
                     "--soft-shadow-size is {}; with --direct-shadows convolution it may be {} at most",
                     s.soft_shadow_size, k_most_convolution_size)
               : std::string(),
+          out_of("--vpl-steps", s.vpl_steps, 1, k_most_vpl_steps, "give a number"), importance_refusal(s),
           out_of("--samples", s.samples, 1, k_most_samples, "give a number"),
           out_of("--world-vpls", s.world_vpls, 0, k_most_vpls, "give a number"),
           out_of("--emitter-vpls", s.emitter_vpls, 0, k_most_vpls, "give a number"),
@@ -259,6 +273,9 @@ std::string layer_refusal(const Settings& s) {
     }
     if (s.technique != Technique::ism) {
         return fmt::format("technique {} has no virtual point lights", name_of(s.technique));
+    }
+    if (s.show == Show::importance && s.traces_first()) {
+        return "lights of --vpl-sampling avg are drawn from no map";
     }
     const bool of_maps = s.show == Show::ism || s.show == Show::ism_splats || s.show == Show::vpl_visibility;
     if (of_maps && s.visibility == Visibility::none) {

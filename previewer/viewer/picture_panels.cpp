@@ -85,13 +85,23 @@ void choose_vpl(Settings& settings, PanelResult& result) {
 }  // namespace
 
 void view_section(ViewState& state, Viewpoint& viewpoint, const PanelFacts& facts, PanelResult& result) {
-    constexpr std::array<const char*, 14> shows = {
-        "shaded",          "direct light", "indirect light", "RSM depth",
-        "RSM position",    "RSM normal",   "RSM flux",       "interpolation",
-        "virtual lights",  "ISM splats",   "ISM atlas",      "visibility of a light",
-        "unblurred light", "removed light"};
+    constexpr std::array<const char*, 15> shows = {"shaded",
+                                                   "direct light",
+                                                   "indirect light",
+                                                   "RSM depth",
+                                                   "RSM position",
+                                                   "RSM normal",
+                                                   "RSM flux",
+                                                   "importance",
+                                                   "interpolation",
+                                                   "virtual lights",
+                                                   "ISM splats",
+                                                   "ISM atlas",
+                                                   "visibility of a light",
+                                                   "unblurred light",
+                                                   "removed light"};
     result.picture_changed |= choose("show", shows, state.settings.show);
-    if (shows_rsm(state.settings.show)) {
+    if (shows_light_map(state.settings.show)) {
         choose_light(state.settings, facts, result);
     }
     if (state.settings.show == Show::vpls || shows_vpl_maps(state.settings.show)) {

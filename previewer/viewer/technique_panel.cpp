@@ -14,6 +14,7 @@ namespace {
 // The sliders' ends; the command line takes more.
 constexpr int k_slider_samples = 4096;
 constexpr int k_slider_vpls = 4096;
+constexpr int k_slider_steps = 100;
 
 constexpr ImGuiSliderFlags k_log = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
 
@@ -60,8 +61,16 @@ bool vpl_settings(Settings& settings) {
         changed |= choose("bounces by", std::array{"points", "imperfect RSMs", "visibility grid"},
                           settings.bounce_source);
     }
-    changed |= choose("first bounce", std::array{"cells of equal flux", "Halton points", "visibility grid"},
-                      settings.vpl_sampling);
+    changed |=
+        choose("first bounce",
+               std::array{"cells of equal flux", "Halton points", "Halton, any light", "inverse transform, 2",
+                          "inverse transform, 3", "Metropolis", "Metropolis, first weight",
+                          "Metropolis, unreduced", "resampled", "visibility grid"},
+               settings.vpl_sampling);
+    changed |= choose("drawn by", std::array{"flux", "what is seen"}, settings.vpl_importance);
+    if (passes::is_chain(settings.vpl_sampling)) {
+        changed |= ImGui::SliderInt("steps of a chain", &settings.vpl_steps, 1, k_slider_steps, "%d", k_log);
+    }
     if (settings.uses_avg()) {
         changed |= choose_size("grid", std::array{32, 64, 128, 256}, settings.avg_size);
         changed |= choose("rays end", std::array{"at slabs", "in voxels"}, settings.avg_hits);
@@ -107,6 +116,7 @@ void technique_section(ViewState& state, PanelResult& result) {
     }
     changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.world_vpls, "not occluded");
+    changed |= choose("world's lights are", std::array{"parts of the sky", "drawn"}, settings.world_sampling);
     changed |= choose_size("emitters' lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.emitter_vpls, "none");
     changed |= choose_size("emissive panels", std::array{0, 1, 2, 4, 8, 16}, settings.emitter_panels, "none");

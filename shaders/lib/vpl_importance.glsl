@@ -34,12 +34,17 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
     return decode_pixel_light(load_rsm(texel, layer), texel, layer, p);
 }
 
-// What a texel counts for when virtual point lights are drawn: the flux it reflects.
+// What a texel counts for when virtual point lights are drawn: the flux it reflects, or what IMPORTANCE_MAP has
+// (passes/vpl_importance.comp).
+#ifdef IMPORTANCE_MAP
+#include "lib/importance_map.glsl"
+#else
 float texel_importance(ivec2 texel, int layer) {
     uvec4 bits = load_rsm(texel, layer);
     vec3 color = vec3(unpackHalf2x16(bits.z), unpackHalf2x16(bits.w).x);
     float metallic = float(bits.w >> 23 & 15u) / 15.0;
     return bits.x == 0u ? 0.0 : importance_density(color, metallic, light.intensity.rgb) * texel_measure(texel);
 }
+#endif
 
 #endif

@@ -19,6 +19,8 @@ layout(location = 0) uniform int rows;    // rows of all maps together
 layout(location = 1) uniform ivec2 round_;  // which of how many sets of samples this is
 layout(location = 2) uniform vec3 turns;    // by how much samples are turned, parts of the step and of the circle; extent of
                                             // a light, as in passes/vpl_draw.comp
+layout(location = 3) uniform float even;    // texels that a light stands for, where that is the same everywhere; 0: it
+                                            // follows from their importance
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
     uvec2 tiles[];
@@ -56,7 +58,7 @@ const float NEAR_WIDENING = WIDENING / 8.0;
 struct Center {
     Surface s;
     Receiver r;
-    float texels_a_vpl;  // over a texel's importance: texels that a virtual point light stands for
+    float importance_a_vpl;  // of the texels that a virtual point light stands for
 };
 
 // What the map has at st (-1 to 1) of a layer, where it stands for `measure` of the map.
@@ -73,9 +75,16 @@ void add_sample(Center at, vec2 st, int layer, float measure, float radius, inou
     float inverse = inversesqrt(squared);
     float cos_out = max(dot(p.normal, w), 0.0);
     float cos_in = max(-dot(at.s.normal, w), 0.0);
-    // texel_measure / texel_importance: the flux a unit of the map reflects there.
-    float texels = at.texels_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
-    float area = surface_area(p, texels) * light.cone.z * turns.z;  // as in passes/vpl_draw.comp
+    // What a light there stands for of the map.
+#ifdef IMPORTANCE_MAP
+    float texels = even > 0.0 ? even : at.importance_a_vpl / max(texel_importance(texel, layer), 1e-30);
+    float standing = texels * texel_measure(texel, p);
+#else
+    // texel_importance / texel_measure: the flux a unit of the map reflects.
+    float standing = even > 0.0 ? even * texel_measure(texel, p)
+                                : at.importance_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
+#endif
+    float area = surface_area(p, standing) * light.cone.z * turns.z;  // as in passes/vpl_draw.comp
     float share = near_share(squared, 1.0 / max(NEAR_RADIUS * NEAR_RADIUS * area, 1e-30));
     float widening = NEAR_WIDENING * surface_area(p, measure) * cos_out * inverse * inverse;
     add_vpl(make_vpl(p, measure), at.r, w, cos_out, cos_in, seen * share * cos_out * cos_in * inverse * inverse,
@@ -94,7 +103,7 @@ void main() {
     Center at;
     float depth = read_surface_unbranched(min(pixel, frame.size.xy - 1), at.s);
     at.r = make_receiver(at.s, direction_to_viewer(at.s.position));
-    at.texels_a_vpl = running_sums[rows - 1] / float(ism.atlas.z);
+    at.importance_a_vpl = running_sums[rows - 1] / float(ism.atlas.z);
     BouncedLight sum;
     sum.irradiance = vec3(0.0);
     sum.glossy = vec3(0.0);

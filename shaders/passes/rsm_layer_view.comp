@@ -2,6 +2,7 @@
 // Shows one layer of an RSM: 0 depth, 1 position, 2 normal, 3 flux.
 #define READ_RSM
 #include "lib/frame.glsl"
+#include "lib/map_layers.glsl"
 #include "lib/rsm.glsl"
 
 layout(local_size_x = GROUP_2D, local_size_y = GROUP_2D) in;
@@ -12,31 +13,21 @@ void main() {
     if (any(greaterThanEqual(pixel, frame.size.xy))) {
         return;
     }
-#if MAP_KIND == MAP_CUBE
-    const ivec2 faces = ivec2(3, 2);
-#else
-    const ivec2 faces = ivec2(1, 1);
-#endif
-    float side = min(float(frame.size.x) / float(faces.x), float(frame.size.y) / float(faces.y));
-    vec2 origin = 0.5 * (vec2(frame.size.xy) - side * vec2(faces));
-    vec2 at = (vec2(pixel) + 0.5 - origin) / side;
+    vec2 st;
+    int layer;
     vec3 color = vec3(0.0);
-    if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(faces)))) {
-        ivec2 cell = ivec2(at);
-        vec2 st = fract(at) * 2.0 - 1.0;
-        PixelLight p;
-        if (read_pixel_light(st, cell.x + cell.y * faces.x, p)) {
+    PixelLight p;
+    if (find_map_layer(pixel, st, layer) && read_pixel_light(st, layer, p)) {
 #if LAYER == 0
-            // Distances in render space are around 1, whatever the scene's size.
-            color = vec3(length(p.position - light.position.xyz));
+        // Distances in render space are around 1, whatever the scene's size.
+        color = vec3(length(p.position - light.position.xyz));
 #elif LAYER == 1
-            color = p.position + 0.5;
+        color = p.position + 0.5;
 #elif LAYER == 2
-            color = p.normal * 0.5 + 0.5;
+        color = p.normal * 0.5 + 0.5;
 #else
-            color = p.color * (1.0 - p.metallic);
+        color = p.color * (1.0 - p.metallic);
 #endif
-        }
     }
     imageStore(color_image, pixel, vec4(color, 1.0));
 }

@@ -20,6 +20,8 @@
 // HALTON: instead, each light is the texel at a point of the two-dimensional Halton sequence over the map (Lv et al. 2009,
 // "A Fast Method for Real-time Computation of Approximated Global Illumination", section III.B), and stands for an equal
 // part of the map. A texel in which nothing was hit, or that the light does not reach, makes a dark one.
+//
+// CHOSEN: instead, the texels that passes/vpl_choose.comp chose.
 #ifdef FROM_IRSM
 #include "lib/irsm.glsl"
 #ifndef SPLATTED
@@ -29,6 +31,7 @@
 #define READ_RSM
 #include "lib/vpl_importance.glsl"
 #endif
+#include "lib/halton.glsl"
 #include "lib/vpl_make.glsl"
 
 layout(local_size_x = GROUP_1D) in;
@@ -43,7 +46,10 @@ layout(location = 5) uniform float extent;
 #else
 const float extent = 1.0;
 #endif
-#ifdef HALTON
+#if defined(CHOSEN)
+layout(location = 3) uniform uint number;  // this source's
+layout(std430, binding = SSBO_VPL_CHOICES) readonly buffer ChoiceBlock { uvec4 choices[]; };
+#elif defined(HALTON)
 layout(location = 3) uniform vec2 share;  // the part of the sequence's first coordinate that is this source's
 #else
 layout(std430, binding = SSBO_ROW_SUMS) readonly buffer RowBlock { float running_sums[]; };
@@ -52,36 +58,9 @@ layout(std430, binding = SSBO_TEXEL_SUMS) readonly buffer TexelBlock { float tex
 
 const int CHILDREN = 16;
 
-float radical_inverse(uint base, uint i) {
-    float inverse = 1.0 / float(base);
-    float digit = inverse;
-    float value = 0.0;
-    while (i > 0u) {
-        value += float(i % base) * digit;
-        i /= base;
-        digit *= inverse;
-    }
-    return value;
-}
-
-uint hash(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
 #ifdef SEEDED
-float to_unit(uint bits) {
-    return float(bits >> 8) * (1.0 / 16777216.0);
-}
-
-// By how much a sequence of points turns about the unit square (Cranley and Patterson 1976, "Randomization of Number
-// Theoretic Methods for Multiple Integration"); another one for each number.
 vec2 seeded_shift(uint number) {
-    uint bits = hash(seed * 0x9e3779b9u + hash(number));
-    return vec2(to_unit(bits), to_unit(hash(bits + 1u)));
+    return seeded_turn(seed, number);
 }
 #endif
 
@@ -123,7 +102,35 @@ void widen(inout GpuVpl vpl, float spread) {
 }
 #endif
 
-#ifdef HALTON
+#if defined(CHOSEN) || defined(HALTON)
+// The light that is a single texel and stands for so many.
+void store_texel(int index, ivec2 texel, int layer, float texels) {
+    PixelLight p;
+    if (!load_pixel_light(texel, layer, p) || !(texels > 0.0)) {
+        drawn[index] = dark_vpl();
+        return;
+    }
+    float measure = texel_measure(texel, p) * texels;
+    GpuVpl vpl = make_vpl(p, measure);
+#if defined(GLOSSY) && MAP_KIND != MAP_ORTHOGRAPHIC
+    widen(vpl, WIDENING * measure * extent);
+#endif
+    store(index, vpl, surface_area(p, measure));
+}
+#endif
+
+#if defined(CHOSEN)
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= maps.x || choices[index].x != number) {
+        return;
+    }
+    int size = source_size();
+    int row = int(choices[index].y) / size;
+    store_texel(index, ivec2(int(choices[index].y) % size, row % source_rows()), row / source_rows(),
+                uintBitsToFloat(choices[index].z));
+}
+#elif defined(HALTON)
 void main() {
     int index = int(gl_GlobalInvocationID.x);
     if (index >= maps.x) {
@@ -141,19 +148,8 @@ void main() {
     float across = (h.x - share.x) / (share.y - share.x) * float(faces);
     int layer = min(int(across), faces - 1);
     ivec2 texel = min(ivec2(vec2(across - float(layer), h.y) * float(size)), ivec2(size - 1));
-    PixelLight p;
-    if (!load_pixel_light(texel, layer, p)) {
-        drawn[index] = dark_vpl();
-        return;
-    }
     // Texels that one of the source's points stands for.
-    float texels = float(size) * float(rows.y) / (float(maps.x) * (share.y - share.x));
-    float measure = texel_measure(texel, p) * texels;
-    GpuVpl vpl = make_vpl(p, measure);
-#if defined(GLOSSY) && MAP_KIND != MAP_ORTHOGRAPHIC
-    widen(vpl, WIDENING * measure * extent);
-#endif
-    store(index, vpl, surface_area(p, measure));
+    store_texel(index, texel, layer, float(size) * float(rows.y) / (float(maps.x) * (share.y - share.x)));
 }
 #else
 // The first row whose running sum exceeds the value.

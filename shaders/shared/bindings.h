@@ -14,6 +14,7 @@
 #define UBO_SHADOW_VIEWS 6
 #define UBO_WORLD 7
 #define UBO_AVG 8
+#define UBO_SPHERE 9
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
@@ -34,6 +35,11 @@
 #define SSBO_ROW_SUMS 5
 #define SSBO_TEXEL_SUMS 3
 #define SSBO_VPLS 6
+#define SSBO_IMPORTANCE 7
+#define SSBO_IMPORTANCE_PIXELS 4
+#define SSBO_VPL_SOURCES 6
+#define SSBO_VPL_CHOICES 4
+#define SSBO_SPHERE 1
 #define SSBO_POINTS 7
 #define SSBO_TRIANGLES 7
 #define SSBO_PATCH_DROPPED 2
@@ -104,6 +110,9 @@
 #define IMG_AVG_TILES 4
 #define IMG_AVG_COUNTS 5
 
+// Uniform locations of a library that several passes have.
+#define UNIFORM_IMPORTANCE_FIRST 8
+
 // Vertex attributes.
 #define ATTRIB_POSITION 0
 #define ATTRIB_NORMAL 1
@@ -132,6 +141,14 @@
 // logarithm grows evenly.
 #define ENVIRONMENT_FIRST_ROUGHNESS 0.2
 #define ENVIRONMENT_LEVELS 5
+// passes/vpl_choose.comp
+#define SAMPLER_UNIFORM 0
+#define SAMPLER_INVERSE2 1
+#define SAMPLER_INVERSE3 2
+#define SAMPLER_METROPOLIS 3
+#define SAMPLER_SINGLE 4
+#define SAMPLER_UNREDUCED 5
+#define SAMPLER_RESAMPLED 6
 // Depth samples a pixel for antialiasing. OpenGL promises four.
 #define AA_SAMPLES 4
 // One group splats the points of one imperfect shadow map.

@@ -53,6 +53,13 @@ struct WorldUniforms {
                             // prefiltered image, -
 };
 
+// The world as cells that lights are drawn from (lib/sphere.glsl).
+struct SphereUniforms {
+    vec4 render_from_environment[3];  // rows of the rotation
+    ivec4 grid;             // cells across and down, -, -
+    vec4 light;             // strength, weight of a luminance where visibility is averaged for reflections, -, -
+};
+
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
@@ -133,6 +140,16 @@ struct GpuVpl {
                             // w: alpha^2 of the lobe
     vec4 arriving;          // rgb: arriving flux, what that reflectance rises to at grazing incidence;
                             // w: Smith's term of the incident direction
+};
+
+// A pixel that virtual point lights are judged by (lib/importance_pixels.glsl).
+struct GpuImportancePixel {
+    vec4 position;          // xyz render space; w: share of the picture, 0 where nothing is seen
+    vec4 normal;            // xyz unit; w: n.v
+    vec4 view;              // xyz unit, towards the viewer; w: (1 - n.v)^5
+    vec4 albedo;            // diffuse, over pi; w: roughness of the diffuse lobe, negative where it is Lambert's
+    vec4 f0;                // of the glossy lobe; w: f90
+    vec4 lobe;              // alpha^2, Smith's term of the view; -; -
 };
 
 // The imperfect shadow maps of a frame: square maps of one size in one atlas, row by row.

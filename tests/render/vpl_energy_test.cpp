@@ -114,7 +114,7 @@ class VplEnergy : public ::testing::Test {
         set.subset = layout.subset;
         set.cell_columns = layout.cell_columns;
         const passes::DrawnVpls drawn =
-            passes::add_vpls_from_rsms(graph, context, sources, set, glossy, VplSampling::inverse_transform);
+            passes::add_vpls_from_rsms(graph, context, sources, set, {.glossy = glossy, .view = {}});
         Fluxes out;
         graph.add_pass("read back", [&](PassBuilder& builder) {
             builder.read(drawn.set.vpls);
