@@ -89,6 +89,7 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
                 gl::Defines defines = source.defines;
                 if (uniform) defines["HALTON"] = "1";
                 if (layout.seed != 0) defines["SEEDED"] = "1";
+                if (layout.seed != 0 && layout.middle) defines["MIDDLE"] = "1";
                 context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
                 if (uniform) {
