@@ -10,10 +10,10 @@ namespace bounce {
 namespace {
 
 // Frames that a mean may be of: while nothing but the camera moves, and while something does, whose bounced
-// light changes all around it. Each has other lights, so that the longer a mean is the less it flickers. At
-// most 255, which are counted in bytes.
+// light changes all around it. While nothing does each has other lights, so that the longer a mean is the
+// less it flickers. At most 255, which are counted in bytes.
 constexpr int k_most_frames = 64;
-constexpr int k_most_frames_moving = 8;
+constexpr int k_most_frames_moving = 6;
 
 size_t at(int index) {
     return static_cast<size_t>(index);

@@ -615,9 +615,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     if (plan.temporal_reuse) {
         history_ = history_ ? std::move(history_) : std::make_unique<LightHistory>();
         continuation = history_->continuation(gpu_scene_, pose, settings);
-        // Other lights in each frame, for the mean; light that is in none would only flicker.
+        // Other lights in each frame, for the mean. Light that is in none would only flicker, and means that
+        // things which move keep short have too few lights to gain by it.
         choice.middle = true;
-        choice.seed = plan.blend_layers > 0 ? 0 : continuation.number;
+        choice.seed = plan.blend_layers > 0 || continuation.moved ? 0 : continuation.number;
     } else {
         history_.reset();
     }

@@ -33,13 +33,14 @@ const float SAME_NORMAL = 0.9;
 // Neighbours that count for less are left out.
 const float LEAST_WEIGHT = 0.01;
 // The mean of a block's pixels is off by its spread over n in the mean square where each pixel's lights are chosen anew.
-// So the frame before may differ by two of these; what differs by more is cut to that, and what differs by twice as much
-// is another light, whose mean begins again. Where nothing moved but the camera irradiance is what it was, and only what
+// So the frame before may differ by two of these, or by one where draws moved and their shadows with them; what differs
+// by more is cut to that, and what differs by twice as much is another light, whose mean begins again. Where nothing moved but the camera irradiance is what it was, and only what
 // was taken for the same place and is not has to be caught: a clip that noise never meets lets a mean grow long.
-const float SPREADS = 2.0;
 #ifdef MOVED
+const float SPREADS = 1.0;
 const float IRRADIANCE_SPREADS = SPREADS;
 #else
+const float SPREADS = 2.0;
 const float IRRADIANCE_SPREADS = 4.0 * SPREADS;
 #endif
 // Glossy light is another one from each place of the camera.
