@@ -32,8 +32,8 @@ class LightHistory {
     };
     // How a frame stands to the one before.
     struct Continuation {
-        std::string reason;   // why it takes nothing of it; empty: it does
-        bool moved = false;   // a draw did
+        std::string reason;  // why it takes nothing of it; empty: it does
+        bool moved = false;  // a draw did
         // Of frames in a row that took light of the one before, this one included; it chooses their lights.
         uint32_t number = 0;
     };

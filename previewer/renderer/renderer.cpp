@@ -397,7 +397,8 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         return bounce;
     };
     for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
-        out.bounces.push_back(make_bounce(ism_layout(settings, bounce, first.points_a_map), settings, chosen.seed));
+        out.bounces.push_back(
+            make_bounce(ism_layout(settings, bounce, first.points_a_map), settings, chosen.seed));
     }
     if (plan.world_occluded) {
         const IsmLayout layout = world_layout(settings, first.points_a_map);
@@ -416,13 +417,15 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         out.world.lights.image = environment_ != nullptr;
     }
     for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
-        out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
+        out.world_bounces.push_back(
+            make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
     }
     if (plan.emitters) {
         out.emitters = make_bounce(emitter_layout(settings, first.points_a_map), settings, chosen.seed);
     }
     for (int bounce = 1; bounce <= plan.emitter_bounces; ++bounce) {
-        out.emitter_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
+        out.emitter_bounces.push_back(
+            make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
     }
     return out;
 }
@@ -748,8 +751,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
     LightHistory::Frame light_before;
     if (plan.temporal_reuse) {
-        light_before =
-            history_->begin(gpu_scene_, pose, camera, settings, scale, continuation, uniforms_);
+        light_before = history_->begin(gpu_scene_, pose, camera, settings, scale, continuation, uniforms_);
         report.reuse.emplace().reason = continuation.reason;
         if (!light_before.before) {
             plan.notes.push_back(
