@@ -45,6 +45,7 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
                 if (chosen) defines["CHOSEN"] = "1";
                 if (mapped) read_importance_map(defines);
                 if (layout.seed != 0) defines["SEEDED"] = "1";
+                if (layout.seed != 0 && layout.middle) defines["MIDDLE"] = "1";
                 context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
                 if (chosen) {

@@ -110,6 +110,13 @@ class Renderer {
     void reload_shaders() { programs_.clear(); }
 
   private:
+    // Which of all that could be chosen are the virtual point lights.
+    struct LightChoice {
+        uint32_t seed = 0;        // VplSet's
+        uint32_t image_seed = 0;  // of the world's image, whose glossy reflection looks up their maps
+        bool middle = false;      // VplSet's
+        float extent = 1.0F;      // the same
+    };
     struct LitBounces {
         std::vector<Bounce> bounces;  // of the scene's lights
         Bounce world;                 // its own lights, where they are planned
@@ -142,7 +149,7 @@ class Renderer {
     // occludes.
     LitBounces prepare_bounces(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
                                const Settings& settings, FramePlan& plan, FrameReport& report,
-                               const OneOfMany* one_of_many);
+                               const LightChoice& chosen);
     // The pose with what the settings have drawn as area lights; nothing where that is nothing.
     std::optional<scene::PanelPose> light_panels(const scene::Pose& pose, const Settings& settings);
     // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
