@@ -28,8 +28,7 @@ int sampler_of(VplSampling sampling) {
 }
 
 bool reads_rows(VplSampling sampling) {
-    return sampling == VplSampling::inverse2 || sampling == VplSampling::inverse3 ||
-           sampling == VplSampling::metropolis_unreduced;
+    return sampling == VplSampling::inverse2 || sampling == VplSampling::inverse3 || is_chain(sampling);
 }
 
 bool reads_texels(VplSampling sampling) {
@@ -50,8 +49,7 @@ BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
         builder.read(tables.importance);
         if (reads_rows(choosing.sampling)) builder.read(tables.rows);
         if (reads_texels(choosing.sampling)) builder.read(tables.texels);
-        const BufferHandle listed =
-            builder.create_buffer("vpl sources", table.size() * sizeof(glm::uvec4));
+        const BufferHandle listed = builder.create_buffer("vpl sources", table.size() * sizeof(glm::uvec4));
         choices =
             builder.create_buffer("vpl choices", static_cast<size_t>(choosing.lights) * sizeof(glm::uvec4));
         return [context, tables, choosing, table, rows = rows_of(sources), listed,
@@ -64,7 +62,8 @@ BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
             resources.buffer(listed).bind_storage(SSBO_VPL_SOURCES);
             resources.buffer(tables.importance).bind_storage(SSBO_IMPORTANCE);
             if (reads_rows(choosing.sampling)) resources.buffer(tables.rows).bind_storage(SSBO_ROW_SUMS);
-            if (reads_texels(choosing.sampling)) resources.buffer(tables.texels).bind_storage(SSBO_TEXEL_SUMS);
+            if (reads_texels(choosing.sampling))
+                resources.buffer(tables.texels).bind_storage(SSBO_TEXEL_SUMS);
             resources.buffer(choices).bind_storage(SSBO_VPL_CHOICES);
             glUniform4i(0, choosing.lights, static_cast<GLint>(table.size()), rows, choosing.steps);
             glUniform1ui(1, choosing.seed);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The samplers of virtual point lights against the sum over all texels, on importance maps made of numbers.
+#include "passes/vpl_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 #include <set>
 
-#include "passes/vpl_choice.h"
 #include "render_fixture.h"
 
 namespace bounce::test {
@@ -21,10 +22,11 @@ struct Map {
 struct Chosen {
     size_t texel = 0;  // among those of all maps
     double texels = 0.0;
+    double standing = 0.0;  // texels around it without another light
 };
 
-// Two lights whose maps differ in size, with importance that spreads over three decades and is nothing in places,
-// and something to be summed up that grows with it, but more slowly.
+// Two lights whose maps differ in size, with importance that spreads over three decades and is nothing in
+// places, and something to be summed up that grows with it, but more slowly.
 struct Problem {
     std::vector<Map> maps = {{8, 8}, {4, 24}};
     std::vector<float> importance;
@@ -109,9 +111,10 @@ class VplChoice : public ::testing::Test {
             builder.read(choices);
             builder.side_effect();
             return [&](const PassResources& resources) {
-                for (const glm::uvec4& c : resources.buffer(choices).read<glm::uvec4>(
-                         static_cast<size_t>(choosing.lights))) {
-                    out.push_back({first.at(c.x) + c.y, static_cast<double>(glm::uintBitsToFloat(c.z))});
+                for (const glm::uvec4& c :
+                     resources.buffer(choices).read<glm::uvec4>(static_cast<size_t>(choosing.lights))) {
+                    out.push_back({first.at(c.x) + c.y, static_cast<double>(glm::uintBitsToFloat(c.z)),
+                                   static_cast<double>(glm::uintBitsToFloat(c.w))});
                 }
             };
         });
@@ -132,8 +135,7 @@ class VplChoice : public ::testing::Test {
         double squares = 0.0;
         for (int seed = 1; seed <= seeds; ++seed) {
             double sum = 0.0;
-            for (const Chosen& c :
-                 choose(problem, {sampling, lights, steps, static_cast<uint32_t>(seed)})) {
+            for (const Chosen& c : choose(problem, {sampling, lights, steps, static_cast<uint32_t>(seed)})) {
                 sum += problem.value.at(c.texel) * c.texels;
             }
             const double d = sum - mean;
@@ -153,9 +155,10 @@ TEST_F(VplChoice, EstimatesTheSumOverAllTexelsWithoutBias) {
     const struct {
         VplSampling sampling;
         int steps;
-    } cases[] = {{VplSampling::uniform3, 1},   {VplSampling::inverse2, 1},          {VplSampling::inverse3, 1},
-                 {VplSampling::metropolis, 1}, {VplSampling::metropolis_single, 5}, {VplSampling::resampled, 2},
-                 {VplSampling::resampled, 5},  {VplSampling::resampled, 20}};
+    } cases[] = {{VplSampling::uniform3, 1},          {VplSampling::inverse2, 1},
+                 {VplSampling::inverse3, 1},          {VplSampling::metropolis, 1},
+                 {VplSampling::metropolis_single, 5}, {VplSampling::resampled, 2},
+                 {VplSampling::resampled, 5},         {VplSampling::resampled, 20}};
     for (const auto& [sampling, steps] : cases) {
         const Estimate e = estimate(problem, sampling, steps);
         // Four standard deviations, and a part in a thousand for sums in single precision.
@@ -201,8 +204,7 @@ TEST_F(VplChoice, LongChainsOfMetropolisComeNearTheSum) {
 // Figure 6: without the reduction short chains are far off, with it they are not.
 TEST_F(VplChoice, WeightsReduceTheBiasOfShortChains) {
     const Problem problem;
-    const double reduced =
-        std::abs(estimate(problem, VplSampling::metropolis, 2).mean - problem.sum());
+    const double reduced = std::abs(estimate(problem, VplSampling::metropolis, 2).mean - problem.sum());
     const double unreduced =
         std::abs(estimate(problem, VplSampling::metropolis_unreduced, 2).mean - problem.sum());
     EXPECT_LT(reduced, 0.5 * unreduced);
@@ -250,6 +252,38 @@ TEST_F(VplChoice, ChainsOfOneStepAreUniformSampling) {
     for (size_t i = 0; i < chains.size(); ++i) {
         EXPECT_EQ(chains[i].texel, uniform[i].texel);
         EXPECT_NEAR(chains[i].texels, uniform[i].texels, 1e-5 * uniform[i].texels);
+    }
+}
+
+// The size of a light is a function of its texel, whatever its chain met: the near field, which knows no
+// chains, has the same. With inverse transform, and with chains of one step, it is what the light is worth.
+TEST_F(VplChoice, SizesFollowFromTheTexelAlone) {
+    const Problem problem;
+    double all = 0.0;
+    for (const float f : problem.importance) {
+        all += static_cast<double>(f);
+    }
+    constexpr int k_lights = 64;
+    for (const VplSampling sampling :
+         {VplSampling::uniform3, VplSampling::inverse2, VplSampling::inverse3, VplSampling::metropolis,
+          VplSampling::metropolis_single, VplSampling::metropolis_unreduced, VplSampling::resampled}) {
+        for (const int steps : {1, 5}) {
+            for (const Chosen& c : choose(problem, {sampling, k_lights, steps, 3})) {
+                if (!(c.texels > 0.0)) {
+                    continue;
+                }
+                const double even = 1.0 / (k_lights * problem.proposed(c.texel));
+                const double by_importance =
+                    all / (k_lights * static_cast<double>(problem.importance[c.texel]));
+                const double part = sampling == VplSampling::uniform3 ? 1.0
+                                    : passes::is_chain(sampling)      ? 1.0 / steps
+                                                                      : 0.0;
+                const double expected = part * even + (1.0 - part) * by_importance;
+                // Single precision over two hundred sums.
+                EXPECT_NEAR(c.standing, expected, 1e-4 * expected)
+                    << static_cast<int>(sampling) << ", " << steps;
+            }
+        }
     }
 }
 
