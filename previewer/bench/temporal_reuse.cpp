@@ -125,7 +125,8 @@ void measure_temporal_reuse(const BenchInputs& inputs, BenchReport& report) {
     }
     table.note = fmt::format(
         "{} frames, indirect light alone; the camera moves aside, object and light by {:g} % of the scene's "
-        "diagonal a frame. Against the same with {} VPLs; relMSE over the second half of the frames, FLIP "
+        "diagonal a frame (a sun turns by that part of a radian). Against the same with {} VPLs; relMSE over "
+        "the second half of the frames, FLIP "
         "between consecutive frames (docs/metrics.md). Others: {} to {} VPLs in turn, since each number has "
         "another sequence.",
         frames, 100.0 * k_step, k_reference_vpls, settings.vpls, settings.vpls + 15 * block);
