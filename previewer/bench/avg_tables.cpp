@@ -36,10 +36,25 @@ const std::vector<ScreenSize> k_sizes = {{640, 480, 7.9, 10.2},  {800, 600, 7.5,
                                          {1024, 768, 7.2, 8.9},  {1280, 1024, 6.9, 8.1},
                                          {1920, 1080, 6.7, 7.2}, {1920, 1200, 5.5, 6.9}};
 
+// The paper's screens are divided by this: a software driver takes seconds for a picture of a million pixels.
+int screen_divisor(const BenchInputs& inputs) {
+    if (inputs.options.screen_divisor) {
+        return *inputs.options.screen_divisor;
+    }
+    return inputs.options.quick ? 8 : inputs.timing == gl::TimingMode::finish ? 2 : 1;
+}
+
+std::string divisor_sentence(const BenchInputs& inputs) {
+    const int divisor = screen_divisor(inputs);
+    return divisor == 1
+               ? "Screens as the paper's."
+               : fmt::format("Ours are 1/{} of the paper's screens each way (--screen-divisor).", divisor);
+}
+
 Settings preset(const BenchInputs& inputs) {
     Settings settings = preset_settings(Preset::avg2012);
-    settings.width = inputs.options.width.value_or(inputs.options.quick ? 160 : 1024);
-    settings.height = inputs.options.height.value_or(inputs.options.quick ? 90 : 768);
+    settings.width = inputs.options.width.value_or(1024 / screen_divisor(inputs));
+    settings.height = inputs.options.height.value_or(768 / screen_divisor(inputs));
     if (inputs.options.vpls) {
         // Of all bounces together, as the paper counts them.
         settings.vpls = settings.bounce_vpls = std::max(*inputs.options.vpls / settings.bounces, 1);
@@ -61,6 +76,7 @@ void describe(const BenchInputs& inputs, const Settings& settings, BenchReport& 
         {"grid", std::to_string(settings.avg_size)},
         {"hits", name_of(settings.avg_hits)},
         {"visibility", name_of(settings.visibility)},
+        {"map projection", name_of(settings.map_projection)},
         {"map size", std::to_string(settings.ism_size)},
         {"interleave", fmt::format("{0}x{0}", settings.interleave)}};
 }
@@ -102,21 +118,34 @@ Table paper_stages() {
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report) {
     const Settings settings = preset(inputs);
     describe(inputs, settings, report);
-    Settings open = settings;
-    open.visibility = Visibility::none;
-    std::vector<scene::Scene> scenes;
+    struct Row {
+        std::string name;
+        scene::Scene scene;
+        Settings settings;
+        bool plotted = true;
+        bool own_frame = false;
+    };
+    std::vector<Row> rows;
     for (const PaperScene& of :
          inputs.values(std::vector<PaperScene>(std::begin(k_paper_scenes), std::end(k_paper_scenes)))) {
-        scenes.push_back(make_room(of.segments));
+        rows.push_back({fmt::format("room, as {}", of.name), make_room(of.segments), settings});
     }
-    scenes.push_back(inputs.scene);
-    Progress progress("bench avg-table1", static_cast<int>(scenes.size()));
+    // The paper draws Sibenik's maps from 7,000 triangles.
+    Settings simplified = settings;
+    simplified.visibility = Visibility::simplified;
+    rows.push_back({rows.back().name + ", maps simplified", rows.back().scene, simplified, false});
+    if (!inputs.options.generated) {
+        rows.push_back({inputs.scene.name, inputs.scene, settings, false, true});
+    }
+    Progress progress("bench avg-table1", static_cast<int>(rows.size()));
     Table table{
         .title = "Time of each stage against triangles",
-        .note =
-            "Rooms with spheres of about as many triangles as the paper's scenes, then the scene given. "
+        .note = fmt::format(
+            "Rooms with spheres of about as many triangles as the paper's scenes, the last one again with "
+            "maps of simplified meshes, then a scene where one is given. {} pixels. {} "
             "Grid: filling it; trace: following rays through it and finding the area that each "
             "light stands for; the rest: G-buffer, direct light, gather and blur.",
+            fmt::format("{}x{}", settings.width, settings.height), divisor_sentence(inputs)),
         .columns = paper_stages().columns,
         .rows = {}};
     Plot plot{.title = "Time of each stage against triangles",
@@ -128,12 +157,13 @@ void measure_avg_stages(const BenchInputs& inputs, BenchReport& report) {
               .y_log = true,
               .series = {{"grid", {}}, {"trace", {}}, {"shadow maps", {}}, {"the rest", {}}},
               .bar_names = {}};
-    for (size_t i = 0; i < scenes.size(); ++i) {
-        const scene::Scene& scene = scenes[i];
-        FrameBench bench(scene, i + 1 == scenes.size() ? inputs.frame() : 1.0,
-                         i + 1 == scenes.size() ? inputs.options.camera : std::string(), inputs.timing,
+    for (const Row& row : rows) {
+        FrameBench bench(row.scene, row.own_frame ? inputs.frame() : 1.0,
+                         row.own_frame ? inputs.options.camera : std::string(), inputs.timing,
                          inputs.interrupts);
-        const MeasuredFrame measured = bench.measure(settings, inputs.repeat());
+        const MeasuredFrame measured = bench.measure(row.settings, inputs.repeat());
+        Settings open = row.settings;
+        open.visibility = Visibility::none;
         const MeasuredFrame without = bench.measure(open, inputs.repeat());
         const double stages[4] = {
             measured.sum(fills_grid).best(), measured.sum(traces).best(), measured.part(Part::maps).best(),
@@ -143,9 +173,9 @@ void measure_avg_stages(const BenchInputs& inputs, BenchReport& report) {
                 })
                 .best()};
         const auto triangles = static_cast<double>(measured.report.triangles);
-        table.rows.push_back({scene.name, triangles, stages[0], stages[1], stages[2], stages[3],
+        table.rows.push_back({row.name, triangles, stages[0], stages[1], stages[2], stages[3],
                               frames(without), frames(measured)});
-        for (size_t k = 0; k < 4 && i + 1 < scenes.size(); ++k) {
+        for (size_t k = 0; k < 4 && row.plotted; ++k) {
             plot.series[k].points.push_back({triangles, stages[k]});
         }
         progress.step(fmt::format("{:.0f} triangles: {:.1f} ms", triangles, measured.frame.best()));
@@ -171,48 +201,68 @@ void measure_avg_screens(const BenchInputs& inputs, BenchReport& report) {
     Settings settings = preset(inputs);
     describe(inputs, settings, report);
     change_setting(report, "size", "varied");
-    std::vector<ScreenSize> sizes = inputs.values(k_sizes);
-    FrameBench bench = inputs.bench(inputs.scene);
-    Progress progress("bench avg-table2", static_cast<int>(sizes.size()));
-    Table table{
-        .title = "Frames a second against screen size",
-        .note = fmt::format("Paper: {}. Over the first: how many times as many frames as on its smallest "
-                            "screen.",
-                            k_avg_paper_machine),
-        .columns = {{"screen", ""},
-                    {"ours", "frames/s"},
-                    {"paper, Office", "frames/s"},
-                    {"paper, Sibenik", "frames/s"},
-                    {"ours over the first", "times"},
-                    {"Office over the first", "times"},
-                    {"Sibenik over the first", "times"}},
-        .rows = {}};
+    const std::vector<ScreenSize> sizes = inputs.values(k_sizes);
+    const int divisor = screen_divisor(inputs);
+    std::vector<std::pair<std::string, scene::Scene>> scenes;
+    if (inputs.options.generated) {
+        scenes.emplace_back("room, as Office", make_room(k_paper_scenes[2].segments));
+        scenes.emplace_back("room, as Sibenik", make_room(k_paper_scenes[3].segments));
+    } else {
+        scenes.emplace_back(inputs.scene.name, inputs.scene);
+    }
+    Progress progress("bench avg-table2", static_cast<int>(scenes.size() * sizes.size()));
+    Table table{.title = "Frames a second against screen size",
+                .note = fmt::format(
+                    "Paper: {}. {} Rooms with spheres have about as many triangles as the paper's scenes. "
+                    "Over the first: how many times as many frames as on its smallest screen.",
+                    k_avg_paper_machine, divisor_sentence(inputs)),
+                .columns = {{"paper's screen", ""}, {"screen", ""}},
+                .rows = {}};
     Plot plot{.title = "Frames a second against screen size",
-              .note = "Dashed: the paper's, on its own machine and scenes.",
+              .note = "Dashed: the paper's, on its own machine, scenes and screens.",
               .kind = Plot::Kind::lines,
-              .x_label = "million pixels",
+              .x_label = "million pixels of the paper's screen",
               .y_label = "frames a second",
               .x_log = false,
               .y_log = true,
-              .series = {{"ours", {}}, {"paper, Office", {}, true}, {"paper, Sibenik", {}, true}},
+              .series = {},
               .bar_names = {}};
-    double first = 0.0;
     for (const ScreenSize& size : sizes) {
-        const int divisor = inputs.options.quick ? 8 : 1;
-        settings.width = size.width / divisor;
-        settings.height = size.height / divisor;
-        const double rate = frames(bench.measure(settings, inputs.repeat()));
-        first = first > 0.0 ? first : rate;
-        const std::string name = fmt::format("{}x{}", settings.width, settings.height);
-        table.rows.push_back({name, rate, size.office_fps, size.sibenik_fps, rate / first,
-                              size.office_fps / k_sizes[0].office_fps,
-                              size.sibenik_fps / k_sizes[0].sibenik_fps});
-        const double pixels = settings.width * settings.height * 1e-6;
-        plot.series[0].points.push_back({pixels, rate});
-        plot.series[1].points.push_back({size.width * size.height * 1e-6, size.office_fps});
-        plot.series[2].points.push_back({size.width * size.height * 1e-6, size.sibenik_fps});
-        progress.step(fmt::format("{}: {:.1f} ms", name, 1e3 / rate));
+        table.rows.push_back({fmt::format("{}x{}", size.width, size.height),
+                              fmt::format("{}x{}", size.width / divisor, size.height / divisor)});
     }
+    // A column of frames a second and one of how many times as many as in its first row.
+    const auto add_columns = [&](const std::string& name, const std::vector<double>& rates, bool from_paper) {
+        table.columns.push_back({name, "frames/s"});
+        table.columns.push_back({name + ", over the first", "times"});
+        Series series{name, {}, from_paper};
+        for (size_t i = 0; i < sizes.size(); ++i) {
+            table.rows[i].emplace_back(rates[i]);
+            table.rows[i].emplace_back(rates[i] / rates.front());
+            series.points.push_back({sizes[i].width * sizes[i].height * 1e-6, rates[i]});
+        }
+        plot.series.push_back(std::move(series));
+    };
+    for (const auto& [name, scene] : scenes) {
+        FrameBench bench = inputs.bench(scene);
+        std::vector<double> rates;
+        for (const ScreenSize& size : sizes) {
+            settings.width = size.width / divisor;
+            settings.height = size.height / divisor;
+            rates.push_back(frames(bench.measure(settings, inputs.repeat(), Measure::frame)));
+            progress.step(fmt::format("{}, {}x{}: {:.1f} ms", name, settings.width, settings.height,
+                                      1e3 / rates.back()));
+        }
+        add_columns(name, rates, false);
+    }
+    std::vector<double> office;
+    std::vector<double> sibenik;
+    for (const ScreenSize& size : sizes) {
+        office.push_back(size.office_fps);
+        sibenik.push_back(size.sibenik_fps);
+    }
+    add_columns("paper, Office", office, true);
+    add_columns("paper, Sibenik", sibenik, true);
     report.tables.push_back(std::move(table));
     report.plots.push_back(std::move(plot));
 }

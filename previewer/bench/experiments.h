@@ -29,8 +29,12 @@ struct BenchOptions {
     std::optional<Splat> splat;
     int least_triangles = 70'000;  // ism-creation
     double most_splats = 8e6;      // ism-splats
-    bool generated = false;        // no scene was given: the room was made
-    bool quick = false;            // few values, small picture, one repetition
+    // ism-splats: a path is not measured with more splats where that is expected to take more seconds.
+    std::optional<double> longest_s;
+    // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
+    std::optional<int> screen_divisor;
+    bool generated = false;  // no scene was given: the room was made
+    bool quick = false;      // few values, small picture, one repetition
 };
 
 struct BenchInputs {

@@ -104,12 +104,12 @@ MeasuredFrame FrameBench::measure(const Settings& settings, int repeat, Measure 
         throw input_error(fmt::format(
             "{} has nothing that hides anything: its virtual point lights need no shadow maps", scene_.name));
     }
-    if (what == Measure::frame_and_passes) {
+    if (what != Measure::passes) {
         for (int i = 0; i < repeat; ++i) {
             (void)draw(settings, gl::TimingMode::off, &out.frame.ms.emplace_back());
         }
     }
-    for (int i = 0; i < repeat; ++i) {
+    for (int i = 0; i < repeat && what != Measure::frame; ++i) {
         const FrameReport report = draw(settings, timing_, &out.timed_frame.ms.emplace_back());
         for (const gl::PassTime& pass : report.passes) {
             const auto at = std::find_if(out.passes.begin(), out.passes.end(),

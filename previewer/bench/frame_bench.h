@@ -66,6 +66,7 @@ struct MeasuredFrame {
 enum class Measure {
     frame_and_passes,
     passes,  // where the time of a whole frame is not asked for
+    frame,   // where those of its passes are not
 };
 
 // One scene at one frame, drawn again and again with different settings, in steady state: shaders are

@@ -12,7 +12,7 @@ size_t at(int index) {
     return static_cast<size_t>(index);
 }
 
-// The draw with the largest extent below a third of the scene's; k_none where there is none.
+// The draw with the largest extent below half of the scene's; k_none where there is none.
 int find_object(const scene::Scene& scene, const scene::Pose& pose, double diagonal) {
     int found = scene::k_none;
     double extent = 0.0;
@@ -22,7 +22,7 @@ int find_object(const scene::Scene& scene, const scene::Pose& pose, double diago
             scene::grow_by_primitive(bounds, pose, pose.draws[i], primitive.bounds);
         }
         if (pose.draws[i].skin == scene::k_none && bounds.diagonal() > extent &&
-            bounds.diagonal() < diagonal / 3.0) {
+            bounds.diagonal() < diagonal / 2.0) {
             extent = bounds.diagonal();
             found = static_cast<int>(i);
         }
@@ -57,8 +57,8 @@ std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& set
     const double diagonal = scene::world_bounds(scene, still).diagonal();
     const glm::dvec3 along(diagonal * step, 0.0, 0.0);
     std::vector<Motion> out;
-    out.push_back({"nothing", [=](int) { return Shot{still, camera_of(still)}; }});
-    out.push_back({"the camera", [=](int frame) {
+    out.push_back({"nothing", true, [=](int) { return Shot{still, camera_of(still)}; }});
+    out.push_back({"the camera", false, [=](int frame) {
                        CameraView view = camera_of(still);
                        view.world_from_camera =
                            view.world_from_camera *
@@ -66,7 +66,7 @@ std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& set
                        return Shot{still, view};
                    }});
     if (const int object = find_object(scene, still, diagonal); object != scene::k_none) {
-        out.push_back({"an object", [=](int frame) {
+        out.push_back({"an object", false, [=](int frame) {
                            Shot shot{still, camera_of(still)};
                            const glm::dvec3 by = along * static_cast<double>(frame);
                            const int node = shot.pose.draws[at(object)].node;
@@ -81,7 +81,7 @@ std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& set
         report.notes.emplace_back("nothing is small enough to be moved as an object");
     }
     if (!still.light_instances.empty()) {
-        out.push_back({"a light", [=](int frame) {
+        out.push_back({"a light", false, [=](int frame) {
                            Shot shot{still, camera_of(still)};
                            move_light(shot.pose, shot.pose.light_instances[0],
                                       along * static_cast<double>(frame), step * frame);
@@ -89,7 +89,7 @@ std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& set
                        }});
     }
     if (!scene.animations.empty()) {
-        out.push_back({"the scene's animation", [=, &inputs](int frame) {
+        out.push_back({"the scene's animation", false, [=, &inputs](int frame) {
                            const scene::Pose pose = pose_at(inputs, inputs.frame() + frame);
                            return Shot{pose, camera_of(pose)};
                        }});
@@ -106,7 +106,7 @@ std::optional<Motion> walk_through(const BenchInputs& inputs, const Settings& se
         camera_of(pose_at(inputs, inputs.frame() + 1.0)).world_from_camera) {
         return std::nullopt;
     }
-    return Motion{"the camera, as animated", [=, &inputs](int frame) {
+    return Motion{"the camera, as animated", false, [=, &inputs](int frame) {
                       return Shot{still, camera_of(pose_at(inputs, inputs.frame() + frame))};
                   }};
 }

@@ -21,6 +21,7 @@ struct Shot {
 
 struct Motion {
     std::string name;               // what moves
+    bool still = false;             // nothing does
     std::function<Shot(int)> shot;  // by the frame's number, from 0
 };
 

@@ -4,6 +4,9 @@
 // Bittner and Havran 2013, "Temporally Coherent Adaptive Sampling for Imperfect Shadow Maps".
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -106,6 +109,48 @@ std::vector<int> point_counts(const BenchInputs& inputs, int maps, BenchReport& 
     return out;
 }
 
+// What a path took with fewer splats, and what it is not measured with: --longest.
+class Patience {
+  public:
+    Patience(std::optional<double> longest_s, std::string path)
+        : longest_ms_(longest_s ? *longest_s * 1e3 : std::numeric_limits<double>::infinity()),
+          path_(std::move(path)) {}
+
+    // Whether so many splats are measured. A path's time grows with them at least as their number, once there
+    // are many; where it does not yet, the expectation is too high, so it is taken from the growth that was
+    // seen where there are two times.
+    [[nodiscard]] bool allows(double splats) {
+        if (splats_ <= 0.0 || !left_out_.empty()) {
+            return left_out_.empty();
+        }
+        const double more = splats / splats_;
+        const double growth = grew_ > 0.0 ? std::pow(more, std::max(grew_, 0.0)) : more;
+        const double expected = ms_ * growth;
+        if (expected <= longest_ms_) {
+            return true;
+        }
+        left_out_ = fmt::format("{} from {} splats on, expected to take {:.1f} s", path_,
+                                format_number(splats), 1e-3 * expected);
+        return false;
+    }
+    void took(double splats, double ms) {
+        if (splats_ > 0.0 && splats > splats_ && ms_ > 0.0) {
+            grew_ = std::log(ms / ms_) / std::log(splats / splats_);
+        }
+        splats_ = splats;
+        ms_ = ms;
+    }
+    [[nodiscard]] const std::string& left_out() const { return left_out_; }
+
+  private:
+    double longest_ms_;
+    std::string path_;
+    double splats_ = 0.0;
+    double ms_ = 0.0;
+    double grew_ = 0.0;  // exponent of the last step
+    std::string left_out_;
+};
+
 // Of what is splatted and, of points that move, moved; without pull-push.
 Samples splat_time(const MeasuredFrame& measured) {
     return measured.sum([](const MeasuredPass& pass) {
@@ -129,29 +174,51 @@ Table measure_table(FrameBench& bench, const BenchInputs& inputs, const std::str
     for (const Splat path : k_paths) {
         series.push_back({fmt::format("{}, {}", splat_name(path), name), {}});
     }
+    std::vector<Patience> patience;
+    for (const Splat path : k_paths) {
+        patience.emplace_back(inputs.options.longest_s, splat_name(path));
+    }
     size_t triangles = 0;
     for (const int points : counts) {
         settings.ism_points = points;
-        double splats = 0.0;
-        std::array<double, k_paths.size()> ms{};
+        // The lights that a frame draws are those asked for, to a few that subsets need.
+        double splats = static_cast<double>(settings.vpls) * points;
+        std::array<std::optional<double>, k_paths.size()> ms{};
         for (size_t i = 0; i < k_paths.size(); ++i) {
+            if (!patience[i].allows(splats)) {
+                progress.step(
+                    fmt::format("{}, {} splats, {}: left out", name, splats, splat_name(k_paths[i])));
+                continue;
+            }
             settings.splat = k_paths[i];
             const MeasuredFrame measured = bench.measure(settings, inputs.repeat(), Measure::passes);
             ms[i] = splat_time(measured).best();
             triangles = measured.report.triangles;
             splats = static_cast<double>(measured.report.vpls) * points;
-            series[series.size() - k_paths.size() + i].points.push_back({splats, ms[i]});
+            patience[i].took(splats, *ms[i]);
+            series[series.size() - k_paths.size() + i].points.push_back({splats, *ms[i]});
             progress.step(
-                fmt::format("{}, {} splats, {}: {:.1f} ms", name, splats, splat_name(k_paths[i]), ms[i]));
+                fmt::format("{}, {} splats, {}: {:.1f} ms", name, splats, splat_name(k_paths[i]), *ms[i]));
         }
         std::vector<Cell> row{splats};
-        row.insert(row.end(), ms.begin(), ms.end());
+        for (const std::optional<double>& time : ms) {
+            row.push_back(time ? Cell(*time) : Cell());
+        }
         for (size_t i = 0; i < k_tessellation; ++i) {
-            row.emplace_back(ms[i] / ms[k_tessellation]);
+            row.push_back(ms[i] && ms[k_tessellation] ? Cell(*ms[i] / *ms[k_tessellation]) : Cell());
         }
         table.rows.push_back(std::move(row));
     }
-    table.note = fmt::format("{} triangles. ", triangles);
+    std::string left_out;
+    for (const Patience& path : patience) {
+        if (!path.left_out().empty()) {
+            left_out += (left_out.empty() ? "" : "; ") + path.left_out();
+        }
+    }
+    if (!left_out.empty()) {
+        left_out = fmt::format("Left out by --longest {:g}: {}. ", *inputs.options.longest_s, left_out);
+    }
+    table.note = fmt::format("{} triangles. {}", triangles, left_out);
     return table;
 }
 

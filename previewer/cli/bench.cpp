@@ -122,6 +122,15 @@ void add_bench(CLI::App& app, Run& run) {
     command->add_option("--splats", options.most_splats, "ism-splats: splats in all maps together, at most")
         ->check(CLI::Range(10'000, 8'000'000))
         ->capture_default_str();
+    command
+        ->add_option("--longest", options.longest_s,
+                     "ism-splats: leave out, and name, what is expected to take more seconds a frame")
+        ->check(CLI::Range(0.001, 1e6));
+    command
+        ->add_option("--screen-divisor", options.screen_divisor,
+                     "avg-table1, avg-table2: the paper's screens over this; 1 by default, 2 on a software "
+                     "driver")
+        ->check(CLI::Range(1, 8));
     command->add_flag("--quick", options.quick,
                       "Few values, 160x90 pixels, once each: to see that it works, not to measure");
     add_scene_source_options(*command, arguments->source);

@@ -143,6 +143,9 @@ std::string avg_conflict(const RenderOptions& o, const Settings& s) {
 
 // Options of how the first bounce's lights are drawn that are not used.
 std::string sampling_conflict(const RenderOptions& o, const Settings& s) {
+    if (o.world_sampling && s.world_vpls == 0) {
+        return "--world-sampling has no effect with --world-vpls 0";
+    }
     if (s.technique != Technique::ism) {
         return {};
     }
@@ -152,7 +155,8 @@ std::string sampling_conflict(const RenderOptions& o, const Settings& s) {
     }
     const bool drawn = s.vpl_sampling != VplSampling::uniform && s.vpl_sampling != VplSampling::uniform3 &&
                        s.vpl_sampling != VplSampling::avg;
-    if (o.vpl_importance && !drawn && s.show != Show::importance) {
+    const bool world = s.world_sampling == WorldSampling::drawn && s.world_vpls > 0;
+    if (o.vpl_importance && !drawn && !world && s.show != Show::importance) {
         return fmt::format("--vpl-importance has no effect with --vpl-sampling {}, which does not ask for it",
                            name_of(s.vpl_sampling));
     }

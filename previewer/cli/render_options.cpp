@@ -119,9 +119,10 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
                  "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
                  "unhidden, as in the 2013 paper",
                  name_of(d.vpl_importance));
-    group.number("--importance-pixels", o.importance_pixels,
-                 "Pixels that the view is judged by, per cent of the picture's, above 0 to 10",
-                 fmt::format("{:g}", d.importance_pixels));
+    group.number(
+        "--importance-pixels", o.importance_pixels,
+        "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; 16,384 at most",
+        fmt::format("{:g}", d.importance_pixels));
     group.number("--importance-floor", o.importance_floor,
                  "What a light counts for at least there, of what it would show on white across the whole "
                  "scene, 0 to 1; with 0 what no pixel of these shows is never drawn, as in the paper",
@@ -327,6 +328,11 @@ void RenderOptions::add_to(CLI::App& command) {
             "not bounce",
             k_most_vpls),
         std::to_string(Settings{}.world_vpls));
+    group.one_of("--world-sampling", world_sampling, setting_names<WorldSampling>(),
+                 "How these are chosen: one for each part of the world's image, or evenly where it has none; "
+                 "drawn: from cells of the sphere, as --vpl-sampling and --vpl-importance draw those of a "
+                 "first bounce from texels",
+                 name_of(Settings{}.world_sampling));
     group.number(
         "--emitter-vpls", emitter_vpls,
         fmt::format("Virtual point lights that stand for emissive surfaces, each with a shadow map, in any "
@@ -417,6 +423,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(bounces, out.bounces);
     set(bounce_vpls, out.bounce_vpls);
     set(world_vpls, out.world_vpls);
+    set(world_sampling, setting_names<WorldSampling>(), out.world_sampling);
     set(emitter_vpls, out.emitter_vpls);
     set(emitter_panels, out.emitter_panels);
     set(bounce_places, out.bounce_places);

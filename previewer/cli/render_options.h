@@ -53,6 +53,7 @@ struct RenderOptions {
     std::optional<std::string> avg_paths;
     std::optional<std::string> vpl_sampling;
     std::optional<std::string> vpl_importance;
+    std::optional<std::string> world_sampling;
     std::optional<float> importance_pixels;
     std::optional<float> importance_floor;
     std::optional<int> vpl_steps;

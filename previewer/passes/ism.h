@@ -51,6 +51,7 @@ struct VplSet {
     int subset = 0;        // lights in such a part
     int cell_columns = 1;  // of a subset's cells of the sampled square
     uint32_t seed = 0;     // 0: always the same lights; else others for every seed, each of the same power
+    bool middle = false;   // with a seed: lights still are means of their cells, quieter and less exact
     float extent = 1.0F;   // the surface that bounds a light's kernel, in parts of the one it stands for
     bool image = false;    // those of the world's image: what they light has its reflection from the image
     bool distant = false;  // lights at infinity, with orthographic maps (renderer/world_lights.h)

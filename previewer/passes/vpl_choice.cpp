@@ -39,13 +39,13 @@ bool reads_texels(VplSampling sampling) {
 
 BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
                             const std::vector<MapSource>& sources, const ImportanceTables& tables,
-                            const Choosing& choosing) {
+                            const Choosing& choosing, const std::string& of) {
     std::vector<glm::uvec4> table;
     for_each_map(sources, [&](const MapSource& source, int row, int texel) {
         table.emplace_back(texel, source.texels(), row, source.rows);
     });
     BufferHandle choices;
-    graph.add_pass("vpl choice", [&](PassBuilder& builder) {
+    graph.add_pass("vpl choice" + of, [&](PassBuilder& builder) {
         builder.read(tables.importance);
         if (reads_rows(choosing.sampling)) builder.read(tables.rows);
         if (reads_texels(choosing.sampling)) builder.read(tables.texels);

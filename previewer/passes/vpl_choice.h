@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "passes/vpl_map_source.h"
+#include "passes/vpl_importance.h"
 #include "passes/vpl_maps.h"
 
 namespace bounce::passes {
-
-// Buffers that samplers read: importance of each texel of all maps (add_vpl_importance()), running sums over
-// all rows, and within each row.
-struct ImportanceTables {
-    BufferHandle importance;
-    BufferHandle rows;
-    BufferHandle texels;
-};
 
 // How lights are chosen among the texels: one of the samplings that is_chosen() names.
 struct Choosing {
@@ -28,6 +20,7 @@ struct Choosing {
 // chain; shaders/passes/vpl_choose.comp has the methods and their sources.
 [[nodiscard]] BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
                                           const std::vector<MapSource>& sources,
-                                          const ImportanceTables& tables, const Choosing& choosing);
+                                          const ImportanceTables& tables, const Choosing& choosing,
+                                          const std::string& of = "");
 
 }  // namespace bounce::passes

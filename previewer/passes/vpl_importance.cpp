@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/vpl_importance.h"
 
+#include <algorithm>
+
 namespace bounce::passes {
 namespace {
 
-BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const ImportanceView& view) {
+BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const ImportanceView& view,
+                        const std::string& of) {
     BufferHandle pixels;
-    graph.add_pass("importance pixels", [&](PassBuilder& builder) {
+    graph.add_pass("importance pixels" + of, [&](PassBuilder& builder) {
         read_gbuffer(builder, view.gbuffer);
         pixels = builder.create_buffer("importance pixels",
                                        static_cast<size_t>(view.pixels) * sizeof(gpu::GpuImportancePixel));
@@ -28,11 +31,12 @@ BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const Imp
 
 BufferHandle add_vpl_importance(FrameGraph& graph, const PassContext& context,
                                 const std::vector<MapSource>& sources,
-                                const std::optional<ImportanceView>& view, int lights) {
-    const BufferHandle pixels = view ? add_pixels(graph, context, *view) : BufferHandle{};
+                                const std::optional<ImportanceView>& view, int lights,
+                                const std::string& of) {
+    const BufferHandle pixels = view ? add_pixels(graph, context, *view, of) : BufferHandle{};
     const size_t texels = texels_of(sources);
     BufferHandle importance;
-    graph.add_pass("importance map", [&](PassBuilder& builder) {
+    graph.add_pass("importance map" + of, [&](PassBuilder& builder) {
         for (const MapSource& source : sources) {
             source.declare(builder);
         }
@@ -55,6 +59,49 @@ BufferHandle add_vpl_importance(FrameGraph& graph, const PassContext& context,
         };
     });
     return importance;
+}
+
+ImportanceTables add_importance_sums(FrameGraph& graph, const PassContext& context,
+                                     const std::vector<MapSource>& sources, BufferHandle importance,
+                                     const std::string& of, bool even_rows) {
+    ImportanceTables out{importance, {}, {}};
+    graph.add_pass("vpl importance" + of, [&](PassBuilder& builder) {
+        for (const MapSource& source : sources) {
+            source.declare(builder);
+        }
+        if (importance.valid()) builder.read(importance);
+        const int rows = rows_of(sources);
+        const BufferHandle sums =
+            builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float));
+        const BufferHandle texel_sums =
+            builder.create_buffer("texel sums", texels_of(sources) * sizeof(float));
+        out.rows = sums;
+        out.texels = texel_sums;
+        return [context, sources, importance, rows, sums, texel_sums,
+                even_rows](const PassResources& resources) {
+            for_each_map(sources, [&](const MapSource& source, int row, int texel) {
+                gl::Defines defines = source.defines;
+                if (importance.valid()) read_importance_map(defines);
+                context.programs.compute("passes/vpl_row_sums.comp", defines).use();
+                source.bind(resources);
+                if (importance.valid()) bind_importance_map(resources, importance, texel);
+                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
+                glUniform3i(0, row, texel, source.rows);
+                glDispatchCompute(static_cast<GLuint>(std::min(source.rows, MOST_GROUPS)),
+                                  static_cast<GLuint>((source.rows + MOST_GROUPS - 1) / MOST_GROUPS), 1);
+            });
+            finish_writes();
+            gl::Defines defines;
+            if (even_rows) defines["EVEN"] = "1";
+            context.programs.compute("passes/vpl_scan.comp", defines).use();
+            resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
+            glUniform1i(0, rows);
+            glDispatchCompute(1, 1, 1);
+            finish_writes();
+        };
+    });
+    return out;
 }
 
 void read_importance_map(gl::Defines& defines) {

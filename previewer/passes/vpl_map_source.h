@@ -22,6 +22,12 @@ struct MapSource {
     [[nodiscard]] int texels() const { return rows * size; }
 };
 
+[[nodiscard]] inline gl::Defines with_lobes(gl::Defines defines, const PassContext& context, bool glossy) {
+    if (glossy) defines["GLOSSY"] = "1";
+    if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
+    return defines;
+}
+
 // Calls visit(source, its first row, its first texel) for one after the other.
 template <typename Visit>
 void for_each_map(const std::vector<MapSource>& sources, const Visit& visit) {

@@ -38,6 +38,12 @@ enum class Importance {
     view,  // what the picture shows of that, unhidden
 };
 
+// How the lights that stand for the world are chosen.
+enum class WorldSampling {
+    parts,  // one for each part of its image, or evenly where it has none
+    drawn,  // from cells of the sphere, as those of a first bounce are from texels (passes/sphere_vpls.h)
+};
+
 // What those of further bounces are drawn from.
 enum class BounceSource {
     points,  // that the bounce before lights

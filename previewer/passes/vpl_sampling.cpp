@@ -9,60 +9,11 @@
 namespace bounce::passes {
 namespace {
 
-gl::Defines with_lobes(gl::Defines defines, const PassContext& context, bool glossy) {
-    if (glossy) defines["GLOSSY"] = "1";
-    if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
-    return defines;
-}
-
 // What lights are drawn by.
 struct Tables {
     ImportanceTables buffers;  // importance is invalid where texels' flux is
     BufferHandle choices;      // invalid where lights are not chosen first
 };
-
-ImportanceTables add_sums(FrameGraph& graph, const PassContext& context,
-                          const std::vector<MapSource>& sources, BufferHandle importance,
-                          const std::string& of, bool even_rows) {
-    ImportanceTables out{importance, {}, {}};
-    graph.add_pass("vpl importance" + of, [&](PassBuilder& builder) {
-        for (const MapSource& source : sources) {
-            source.declare(builder);
-        }
-        if (importance.valid()) builder.read(importance);
-        const int rows = rows_of(sources);
-        const BufferHandle sums =
-            builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float));
-        const BufferHandle texel_sums =
-            builder.create_buffer("texel sums", texels_of(sources) * sizeof(float));
-        out.rows = sums;
-        out.texels = texel_sums;
-        return [context, sources, importance, rows, sums, texel_sums,
-                even_rows](const PassResources& resources) {
-            for_each_map(sources, [&](const MapSource& source, int row, int texel) {
-                gl::Defines defines = source.defines;
-                if (importance.valid()) read_importance_map(defines);
-                context.programs.compute("passes/vpl_row_sums.comp", defines).use();
-                source.bind(resources);
-                if (importance.valid()) bind_importance_map(resources, importance, texel);
-                resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-                resources.buffer(texel_sums).bind_storage(SSBO_TEXEL_SUMS);
-                glUniform3i(0, row, texel, source.rows);
-                glDispatchCompute(static_cast<GLuint>(std::min(source.rows, MOST_GROUPS)),
-                                  static_cast<GLuint>((source.rows + MOST_GROUPS - 1) / MOST_GROUPS), 1);
-            });
-            finish_writes();
-            gl::Defines defines;
-            if (even_rows) defines["EVEN"] = "1";
-            context.programs.compute("passes/vpl_scan.comp", defines).use();
-            resources.buffer(sums).bind_storage(SSBO_ROW_SUMS);
-            glUniform1i(0, rows);
-            glDispatchCompute(1, 1, 1);
-            finish_writes();
-        };
-    });
-    return out;
-}
 
 // The lights themselves.
 BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::vector<MapSource>& sources,
@@ -94,6 +45,7 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
                 if (chosen) defines["CHOSEN"] = "1";
                 if (mapped) read_importance_map(defines);
                 if (layout.seed != 0) defines["SEEDED"] = "1";
+                if (layout.seed != 0 && layout.middle) defines["MIDDLE"] = "1";
                 context.programs.compute("passes/vpl_draw.comp", defines).use();
                 source.bind(resources);
                 if (chosen) {
@@ -148,12 +100,12 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
     const bool chosen = is_chosen(drawing.sampling);
     BufferHandle importance;
     if (drawing.view || drawing.map || chosen) {
-        importance = add_vpl_importance(graph, context, sources, drawing.view, layout.maps);
+        importance = add_vpl_importance(graph, context, sources, drawing.view, layout.maps, of);
     }
-    Tables tables{add_sums(graph, context, sources, importance, of, even_rows), {}};
+    Tables tables{add_importance_sums(graph, context, sources, importance, of, even_rows), {}};
     if (chosen) {
         tables.choices = add_vpl_choice(graph, context, sources, tables.buffers,
-                                        {drawing.sampling, layout.maps, drawing.steps, layout.seed});
+                                        {drawing.sampling, layout.maps, drawing.steps, layout.seed}, of);
     }
     DrawnVpls out{layout,
                   {tables.buffers.rows, rows_of(sources), importance,

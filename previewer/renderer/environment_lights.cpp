@@ -354,6 +354,28 @@ std::vector<EnvironmentRegion> EnvironmentLights::regions(int count) const {
     return out;
 }
 
+SphereCells EnvironmentLights::cells(int across) const {
+    SphereCells out{std::min(width_, across), std::min(height_, across / 2), {}};
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            const Sums s = sums(x * width_ / out.width, y * height_ / out.height,
+                                (x + 1) * width_ / out.width, (y + 1) * height_ / out.height);
+            // Differences of sums may round to just below 0.
+            out.light.emplace_back(glm::max(glm::vec3(s.irradiance), glm::vec3(0.0F)),
+                                   static_cast<float>(std::max(s.solid_angle, 0.0)));
+        }
+    }
+    return out;
+}
+
+double EnvironmentLights::whole_luminance() const {
+    double sum = luminance(sums(0, 0, width_, height_).irradiance);
+    for (const EnvironmentSun& sun : suns_) {
+        sum += luminance(sun.irradiance);
+    }
+    return sum;
+}
+
 int environment_region_count(const EnvironmentLights& environment, const IsmLayout& layout) {
     const int subsets = layout.vpls / layout.subset;
     return environment.suns().empty() || layout.subset < 2 ? layout.vpls : layout.vpls - subsets;

@@ -42,6 +42,11 @@ class EnvironmentLights {
     // shared by several lights.
     [[nodiscard]] std::vector<EnvironmentRegion> regions(int count) const;
 
+    // The image without its suns as cells of the sphere, at most `across` times half as many.
+    [[nodiscard]] SphereCells cells(int across) const;
+    // Luminance of all of it, with its suns.
+    [[nodiscard]] double whole_luminance() const;
+
   private:
     // Sums over the cells above and to the left.
     struct Sums {

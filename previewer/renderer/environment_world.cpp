@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,9 @@
 
 namespace bounce {
 namespace {
+
+// Cells across: 1.4 degrees, half of what a shadow map's texel blurs.
+constexpr int k_cells = 256;
 
 glm::dmat3 turn_of(const scene::World& world) {
     return glm::mat3_cast(world.world_from_environment);
@@ -49,6 +53,26 @@ std::vector<gpu::GpuVpl> EnvironmentWorld::lights(const scene::World& world, con
         regions_ = lights_.regions(count);
     }
     return environment_vpls(lights_, regions_, turn_of(world), world.strength, layout, maps);
+}
+
+const SphereCells& EnvironmentWorld::cells() {
+    if (cells_.light.empty()) {
+        cells_ = lights_.cells(k_cells);
+    }
+    return cells_;
+}
+
+gpu::SphereUniforms EnvironmentWorld::cell_uniforms(const scene::World& world) {
+    gpu::SphereUniforms out{};
+    const glm::dmat3 turn = turn_of(world);
+    for (int row = 0; row < 3; ++row) {
+        out.render_from_environment[row] = glm::vec4(turn[0][row], turn[1][row], turn[2][row], 0.0F);
+    }
+    out.grid = {cells().width, cells().height, 0, 0};
+    // Lights' weights are parts of 4 pi, as environment_vpls() has them.
+    const double all = lights_.whole_luminance() * static_cast<double>(world.strength);
+    out.light = {world.strength, all > 0.0 ? 4.0 * std::numbers::pi / all : 0.0, 0.0F, 0.0F};
+    return out;
 }
 
 const gpu::EnvironmentMaps& EnvironmentWorld::maps(const scene::Environment& environment,

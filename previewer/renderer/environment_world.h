@@ -26,6 +26,10 @@ class EnvironmentWorld {
     [[nodiscard]] std::vector<gpu::GpuVpl> lights(const scene::World& world, const IsmLayout& layout,
                                                   const DistantMaps& maps);
 
+    // The same light as cells of the sphere, made on the first call, and what shaders need to know of them.
+    [[nodiscard]] const SphereCells& cells();
+    [[nodiscard]] gpu::SphereUniforms cell_uniforms(const scene::World& world);
+
     // Textures of the image, drawn on the first call.
     [[nodiscard]] const gpu::EnvironmentMaps& maps(const scene::Environment& environment,
                                                    gl::ProgramCache& programs);
@@ -34,6 +38,7 @@ class EnvironmentWorld {
   private:
     EnvironmentLights lights_;
     std::vector<EnvironmentRegion> regions_;
+    SphereCells cells_;
     std::unique_ptr<gpu::EnvironmentMaps> maps_;
 };
 

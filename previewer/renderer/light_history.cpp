@@ -10,8 +10,9 @@ namespace bounce {
 namespace {
 
 // Frames that a mean may be of: while nothing but the camera moves, and while something does, whose bounced
-// light changes all around it.
-constexpr int k_most_frames = 16;
+// light changes all around it. While nothing does each has other lights, so that the longer a mean is the
+// less it flickers. At most 255, which are counted in bytes.
+constexpr int k_most_frames = 64;
 constexpr int k_most_frames_moving = 6;
 
 size_t at(int index) {
@@ -109,38 +110,47 @@ std::string settings_changed(const Settings& before, const Settings& now) {
     }
     // Not how many lights there are: more of them change no mean.
     const auto key = [](const Settings& s) {
-        return std::tuple(s.technique, s.show, s.bounces, s.world_vpls > 0, s.emitter_vpls > 0,
-                          s.emitter_panels, s.bounce_places, s.shading, s.visibility, s.splat,
-                          s.bounce_source, s.vpl_sampling, s.vpl_importance, s.ism_size, s.large_triangles,
-                          s.drop_hull, s.pull_push, s.interleave, s.near_field, s.glossy_bounces,
-                          s.transparent_layers > 0);
+        return std::tuple(s.technique, s.show, s.bounces, s.world_vpls > 0, s.world_sampling,
+                          s.emitter_vpls > 0, s.emitter_panels, s.bounce_places, s.shading, s.visibility,
+                          s.splat, s.bounce_source, s.vpl_sampling, s.vpl_importance, s.ism_size,
+                          s.large_triangles, s.drop_hull, s.pull_push, s.interleave, s.near_field,
+                          s.glossy_bounces, s.transparent_layers > 0);
     };
     return key(before) == key(now) ? "" : "the settings changed";
 }
 
-LightHistory::Frame LightHistory::begin(const gpu::GpuScene& scene, const scene::Pose& pose,
-                                        const CameraMatrices& camera, const Settings& settings, float scale,
-                                        gpu::UniformArena& uniforms) {
-    Frame out;
+LightHistory::Continuation LightHistory::continuation(const gpu::GpuScene& scene, const scene::Pose& pose,
+                                                      const Settings& settings) const {
+    Continuation out;
     if (!before_) {
         out.reason = "there is no frame before it";
     } else if (out.reason = settings_changed(before_->settings, settings); out.reason.empty()) {
         out.reason = light_changed(scene.source(), before_->pose, pose);
     }
+    if (out.reason.empty()) {
+        out.moved = scene.deforms() || !same_draws(before_->pose.draws, pose.draws);
+        out.number = before_->number + 1;
+    }
+    return out;
+}
+
+LightHistory::Frame LightHistory::begin(const gpu::GpuScene& scene, const scene::Pose& pose,
+                                        const CameraMatrices& camera, const Settings& settings, float scale,
+                                        const Continuation& continuation, gpu::UniformArena& uniforms) {
+    Frame out;
     Textures& next = textures_[next_];
     require(next.bounced, "kept light", GL_RGBA32UI, settings);
     require(next.depth, "kept depth", GL_DEPTH_COMPONENT32F, settings);
     require(next.normal, "kept normals", GL_RG16, settings);
     require(next.frames, "kept frames", GL_R8UI, settings);
     out.next = next.kept();
-    if (out.reason.empty()) {
+    if (continuation.reason.empty()) {
         passes::LightBefore& light = out.before.emplace();
         light.kept = textures_[1 - next_].kept();
         light.camera = uniforms.add(motion_uniforms(before_->camera, settings, scene.space()));
         light.scale = scale / before_->scale;
-        const bool moved = scene.deforms() || !same_draws(before_->pose.draws, pose.draws);
-        light.most_frames = moved ? k_most_frames_moving : k_most_frames;
-        if (moved) {
+        light.most_frames = continuation.moved ? k_most_frames_moving : k_most_frames;
+        if (continuation.moved) {
             if (!has_positions_) {  // nothing deforms: they are what they were
                 previous_pose_.keep_positions(scene.vertices());
                 has_positions_ = true;
@@ -149,7 +159,7 @@ LightHistory::Frame LightHistory::begin(const gpu::GpuScene& scene, const scene:
             light.moved = &previous_pose_;
         }
     }
-    drawn_ = Moment{pose, camera, settings, scale};
+    drawn_ = Moment{pose, camera, settings, scale, continuation.number};
     return out;
 }
 

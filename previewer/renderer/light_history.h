@@ -29,13 +29,21 @@ class LightHistory {
     struct Frame {
         passes::KeptLight next;
         std::optional<passes::LightBefore> before;
-        std::string reason;  // why there is nothing before
     };
-    // After the scene has this pose and before anything deforms. scale: FrameUniforms::composite.w. Adds
-    // uniforms to the arena.
+    // How a frame stands to the one before.
+    struct Continuation {
+        std::string reason;  // why it takes nothing of it; empty: it does
+        bool moved = false;  // a draw did
+        // Of frames in a row that took light of the one before, this one included; it chooses their lights.
+        uint32_t number = 0;
+    };
+    // After the scene has this pose and before anything deforms.
+    [[nodiscard]] Continuation continuation(const gpu::GpuScene& scene, const scene::Pose& pose,
+                                            const Settings& settings) const;
+    // The same frame then. scale: FrameUniforms::composite.w. Adds uniforms to the arena.
     [[nodiscard]] Frame begin(const gpu::GpuScene& scene, const scene::Pose& pose,
                               const CameraMatrices& camera, const Settings& settings, float scale,
-                              gpu::UniformArena& uniforms);
+                              const Continuation& continuation, gpu::UniformArena& uniforms);
     void keep(const gpu::GpuScene& scene);
     void forget() { before_.reset(); }
 
@@ -49,6 +57,7 @@ class LightHistory {
         CameraMatrices camera;
         Settings settings;
         float scale = 1.0F;
+        uint32_t number = 0;  // Continuation's
     };
 
     std::array<Textures, 2> textures_;

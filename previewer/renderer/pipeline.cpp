@@ -93,10 +93,38 @@ passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints
                           in.settings.push_threshold}};
 }
 
+// Every texel of every map looks at each of the pixels that importance is judged by; llvmpipe ends a loop
+// after 65,535 iterations.
+constexpr double k_most_viewed_pixels = 16384.0;
+
+// How lights are drawn from maps and from the sphere. gbuffer: where they are gathered.
+passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer, uint32_t seed) {
+    const Settings& settings = in.settings;
+    passes::Drawing out{.glossy = in.plan.glossy,
+                        .sampling = settings.vpl_sampling,
+                        .steps = settings.vpl_steps,
+                        .map = settings.show == Show::importance,
+                        .view = {}};
+    if (settings.vpl_importance == Importance::view) {
+        const double pixels = static_cast<double>(in.context.width) * in.context.height;
+        out.view = {.gbuffer = gbuffer,
+                    .pixels = static_cast<int>(
+                        std::clamp(std::ceil(0.01 * static_cast<double>(settings.importance_pixels) * pixels),
+                                   1.0, k_most_viewed_pixels)),
+                    .floor = settings.importance_floor,
+                    .seed = seed};
+    }
+    return out;
+}
+
 // The world's lights and their shadow maps, which are always drawn from disks.
-passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
+passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
+                         const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
     world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    if (in.sphere.cells != nullptr) {
+        world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
+    }
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = passes::Splat::disks;
@@ -217,25 +245,6 @@ void add_further_bounces(FrameGraph& graph, const PipelineInputs& in, const pass
                                    first ? irsms : bounces[i - 1].irsms, bounces[i], grid, lit),
                    lit);
     }
-}
-
-// How the first bounce's lights are drawn. gbuffer: where they are gathered.
-passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer, uint32_t seed) {
-    const Settings& settings = in.settings;
-    passes::Drawing out{.glossy = in.plan.glossy,
-                        .sampling = settings.vpl_sampling,
-                        .steps = settings.vpl_steps,
-                        .map = settings.show == Show::importance,
-                        .view = {}};
-    if (settings.vpl_importance == Importance::view) {
-        const double pixels = static_cast<double>(in.context.width) * in.context.height;
-        out.view = {
-            .gbuffer = gbuffer,
-            .pixels = std::max(static_cast<int>(std::ceil(0.01 * settings.importance_pixels * pixels)), 1),
-            .floor = settings.importance_floor,
-            .seed = seed};
-    }
-    return out;
 }
 
 // Bounce by bounce: lights from what the bounce before reflects, and their shadow maps; first of the scene's
@@ -607,7 +616,7 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     Emitted emitted;
     std::vector<VplSource> sources;
     if (in.plan.world_occluded) {
-        emitted.world = add_world(graph, in, scene);
+        emitted.world = add_world(graph, in, lit_surfaces, scene);
     }
     if (in.plan.emitters) {
         emitted.emitters = add_emitters(graph, in, scene);

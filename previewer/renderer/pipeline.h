@@ -13,6 +13,7 @@
 #include "passes/removed_light.h"
 #include "passes/rsm_gather.h"
 #include "passes/soft_shadow.h"
+#include "passes/sphere_vpls.h"
 #include "passes/temporal_reuse.h"
 #include "passes/vpl_sampling.h"
 #include "renderer/frame_plan.h"
@@ -74,7 +75,8 @@ struct PipelineInputs {
     std::vector<Bounce> bounces;              // plan.bounces of them
     Bounce world;                             // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
-    passes::WorldImage image;           // where plan.environment
+    passes::SphereSource sphere;  // where its lights are drawn from cells of the sphere; else without any
+    passes::WorldImage image;     // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them
     gpu::EmitterStore* emitter_store = nullptr;
     Bounce emitters;                             // where plan.emitters

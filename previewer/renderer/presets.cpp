@@ -60,9 +60,10 @@ Settings preset_settings(Preset preset) {
             break;
         case Preset::avg2012:
             // Section IV: 1,024 lights of three bounces in all, a grid of 64 x 64 x 64 voxels, Lambert's
-            // reflection, and traditional maps of triangles; Section III: all traced through the grid, from
-            // the lights on, some way into each voxel; of 16 subsets of the pixels each gathers from its own
-            // lights, filtered by a box of 4 x 4 pixels.
+            // reflection, and a paraboloid map of triangles for each light (of its scenes with large ones a
+            // traditional map, of one view as well: what lies outside of that view hides nothing); Section
+            // III: all traced through the grid, from the lights on, some way into each voxel; of 16 subsets
+            // of the pixels each gathers from its own lights, filtered by a box of 4 x 4 pixels.
             out.technique = Technique::ism;
             out.vpls = 352;
             out.bounces = 3;
@@ -73,6 +74,7 @@ Settings preset_settings(Preset preset) {
             out.avg_hits = AvgHits::voxels;
             out.avg_paths = AvgPaths::fixed;
             out.visibility = Visibility::shadow_maps;
+            out.map_projection = MapProjection::paraboloid;
             out.interleave = 4;
             out.world_vpls = 0;                         // the paper has no light from all around
             out.emitter_panels = out.emitter_vpls = 0;  // and none from surfaces
@@ -88,6 +90,7 @@ Settings preset_settings(Preset preset) {
             out.technique = Technique::ism;
             out.vpls = 1024;
             out.world_vpls = 1024;  // "VPLs are generated on the sphere to simulate environment map lighting"
+            out.world_sampling = WorldSampling::drawn;
             out.vpl_sampling = VplSampling::metropolis;
             out.vpl_importance = Importance::view;
             out.importance_pixels = 0.1F;

@@ -235,6 +235,31 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
     }
 }
 
+passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
+    const glm::vec3 radiance = environment_ ? glm::vec3(0.0F) : world.color * world.strength;
+    SphereCells even;
+    if (!environment_) {
+        even = even_cells(radiance);
+    }
+    const SphereCells& cells = environment_ ? environment_->cells() : even;
+    if (!sphere_cells_ || radiance != sphere_radiance_) {
+        sphere_cells_ = gl::Buffer::of("sphere cells", std::span<const glm::vec4>(cells.light));
+        sphere_radiance_ = radiance;
+    }
+    gpu::SphereUniforms uniforms{};
+    if (environment_) {
+        uniforms = environment_->cell_uniforms(world);
+    } else {
+        for (int row = 0; row < 3; ++row) {
+            uniforms.render_from_environment[row][row] = 1.0F;
+        }
+        uniforms.grid = {cells.width, cells.height, 0, 0};
+        uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
+    }
+    return {&sphere_cells_, uniforms_.add(uniforms), cells.width, cells.height,
+            environment_ && environment_->has_suns()};
+}
+
 SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
                                    int soft_lights, int soft_points) const {
     const auto maps = [](int count) { return static_cast<size_t>(std::max(count, 0)); };
@@ -256,16 +281,15 @@ SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& pl
 Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
                                                std::span<const scene::EmissivePanel> panels,
                                                const Settings& asked, FramePlan& plan, FrameReport& report,
-                                               const OneOfMany* one_of_many) {
+                                               const LightChoice& chosen) {
     Settings settings = asked;
     LitBounces out;
-    const uint32_t seed = seed_of(one_of_many);
     out.splat = settings.splat;
     if (points_needed(plan, settings) && !points_) {
         points_ = std::make_unique<gpu::PointStore>(scene_, scene::default_animation(scene_));
     }
     if (plan.emitters) {
-        place_emitters(pose, panels, settings, plan, seed);
+        place_emitters(pose, panels, settings, plan, chosen.seed);
     }
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
@@ -377,16 +401,15 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     const size_t occluders = needs_points ? points_->occluders() : 0;
     const size_t reflectors = needs_points ? points_->reflectors() : 0;
     const double dense_area = needs_points ? points_->dense_reflector_area_m2() * scale * scale : 0.0;
-    const auto make_bounce = [&](const IsmLayout& layout, const Settings& of) {
+    const auto make_bounce = [&](const IsmLayout& layout, const Settings& of, uint32_t seed) {
         Bounce bounce;
         bounce.lights = vpl_set(layout);
         gpu::IsmUniforms uniforms = ism_uniforms(layout, of, occluders, mean_radius);
-        if (one_of_many != nullptr) {
-            bounce.lights.seed = seed;
-            bounce.lights.extent = one_of_many->extent;
-            // Maps take the points of others, far from their own.
-            uniforms.points.w = static_cast<int>(seed * 0x9e3779b9U % static_cast<uint32_t>(layout.vpls));
-        }
+        bounce.lights.seed = seed;
+        bounce.lights.middle = chosen.middle;
+        bounce.lights.extent = chosen.extent;
+        // Maps take the points of others, far from their own.
+        uniforms.points.w = static_cast<int>(seed * 0x9e3779b9U % static_cast<uint32_t>(layout.vpls));
         bounce.lights.uniforms = uniforms_.add(uniforms);
         IsmLayout maps = layout;
         maps.map_size = irsm.map_size;
@@ -399,32 +422,39 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         return bounce;
     };
     for (int bounce = 1; bounce <= plan.bounces; ++bounce) {
-        out.bounces.push_back(make_bounce(ism_layout(settings, bounce, first.points_a_map), settings));
+        out.bounces.push_back(
+            make_bounce(ism_layout(settings, bounce, first.points_a_map), settings, chosen.seed));
     }
     if (plan.world_occluded) {
         const IsmLayout layout = world_layout(settings, first.points_a_map);
         const DistantMaps maps = distant_maps(points_->ground(pose).rest, gpu_scene_.space());
         const std::vector<gpu::GpuVpl> made =
             environment_ ? environment_->lights(pose.world, layout, maps)
-                         : world_lights(pose.world.color * pose.world.strength, layout, maps, seed);
+                         : world_lights(pose.world.color * pose.world.strength, layout, maps, chosen.seed);
         world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
         // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
         // are.
         Settings disks = settings;
         disks.splat = passes::Splat::disks;
         disks.bounce_source = BounceSource::points;
-        out.world = make_bounce(layout, disks);
+        out.world = make_bounce(layout, disks, environment_ ? chosen.image_seed : chosen.seed);
         out.world.lights.distant = true;
+        // Parts of an image are always the same; pictures whose mean is sought have other lights each.
+        if (settings.world_sampling == WorldSampling::drawn || (environment_ && chosen.image_seed != 0)) {
+            out.sphere = prepare_sphere(pose.world);
+        }
         out.world.lights.image = environment_ != nullptr;
     }
     for (int bounce = 1; bounce <= plan.world_bounces; ++bounce) {
-        out.world_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
+        out.world_bounces.push_back(
+            make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
     }
     if (plan.emitters) {
-        out.emitters = make_bounce(emitter_layout(settings, first.points_a_map), settings);
+        out.emitters = make_bounce(emitter_layout(settings, first.points_a_map), settings, chosen.seed);
     }
     for (int bounce = 1; bounce <= plan.emitter_bounces; ++bounce) {
-        out.emitter_bounces.push_back(make_bounce(ism_layout(settings, 2, first.points_a_map), settings));
+        out.emitter_bounces.push_back(
+            make_bounce(ism_layout(settings, 2, first.points_a_map), settings, chosen.seed));
     }
     return out;
 }
@@ -610,6 +640,20 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         plan.left_out.push_back({"emitter lights", "all that emits is drawn as area lights"});
     }
     report.approximations = plan.approximations;
+    LightHistory::Continuation continuation;
+    LightChoice choice{.seed = seed_of(one_of_many),
+                       .image_seed = seed_of(one_of_many),
+                       .extent = one_of_many != nullptr ? one_of_many->extent : 1.0F};
+    if (plan.temporal_reuse) {
+        history_ = history_ ? std::move(history_) : std::make_unique<LightHistory>();
+        continuation = history_->continuation(gpu_scene_, pose, settings);
+        // Other lights in each frame, for the mean. Light that is in none would only flicker, and means that
+        // things which move keep short have too few lights to gain by it.
+        choice.middle = true;
+        choice.seed = plan.blend_layers > 0 || continuation.moved ? 0 : continuation.number;
+    } else {
+        history_.reset();
+    }
     if (plan.simplified) {
         gpu_scene_.simplify(settings.simplify);
         report.simplified_triangles = gpu_scene_.simplified_triangles();
@@ -706,7 +750,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
     }
     report.lights = static_cast<int>(lights.size());
-    const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, one_of_many);
+    const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, choice);
     const AvgInputs avg = prepare_avg(ray_lights, settings, plan);
     Settings drawn = settings;
     drawn.splat = bounces.splat;
@@ -736,15 +780,12 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
     LightHistory::Frame light_before;
     if (plan.temporal_reuse) {
-        history_ = history_ ? std::move(history_) : std::make_unique<LightHistory>();
-        light_before = history_->begin(gpu_scene_, pose, camera, settings, scale, uniforms_);
-        report.reuse.emplace().reason = light_before.reason;
+        light_before = history_->begin(gpu_scene_, pose, camera, settings, scale, continuation, uniforms_);
+        report.reuse.emplace().reason = continuation.reason;
         if (!light_before.before) {
             plan.notes.push_back(
-                fmt::format("no light of the frames before is reused: {}", light_before.reason));
+                fmt::format("no light of the frames before is reused: {}", continuation.reason));
         }
-    } else {
-        history_.reset();
     }
     passes::ReusedPixels reused_pixels;
     const passes::PreviousFrame previous_frame =
@@ -786,6 +827,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .bounces = bounces.bounces,
                 .world = bounces.world,
                 .world_lights = &world_lights_,
+                .sphere = bounces.sphere,
                 .image = image,
                 .world_bounces = bounces.world_bounces,
                 .emitter_store = emitters_.get(),

@@ -110,9 +110,17 @@ class Renderer {
     void reload_shaders() { programs_.clear(); }
 
   private:
+    // Which of all that could be chosen are the virtual point lights.
+    struct LightChoice {
+        uint32_t seed = 0;        // VplSet's
+        uint32_t image_seed = 0;  // of the world's image, whose glossy reflection looks up their maps
+        bool middle = false;      // VplSet's
+        float extent = 1.0F;      // the same
+    };
     struct LitBounces {
         std::vector<Bounce> bounces;  // of the scene's lights
         Bounce world;                 // its own lights, where they are planned
+        passes::SphereSource sphere;  // that they are drawn from, where they are
         std::vector<Bounce> world_bounces;
         Bounce emitters;  // likewise
         std::vector<Bounce> emitter_bounces;
@@ -122,6 +130,8 @@ class Renderer {
         int triangles = 0;                           // large ones in the maps of lights within the scene
         int soft_points = 0;                         // in each imperfect map of a place on a light
     };
+    // The cells of the sphere, uploaded where they changed.
+    [[nodiscard]] passes::SphereSource prepare_sphere(const scene::World& world);
     // A light whose soft shadow has imperfect maps: which of the frame's, and where it stands.
     struct Imperfect {
         size_t light = 0;
@@ -139,7 +149,7 @@ class Renderer {
     // occludes.
     LitBounces prepare_bounces(const scene::Pose& pose, std::span<const scene::EmissivePanel> panels,
                                const Settings& settings, FramePlan& plan, FrameReport& report,
-                               const OneOfMany* one_of_many);
+                               const LightChoice& chosen);
     // The pose with what the settings have drawn as area lights; nothing where that is nothing.
     std::optional<scene::PanelPose> light_panels(const scene::Pose& pose, const Settings& settings);
     // Places the plan's lights on emissive surfaces; drops them from it where textures leave none.
@@ -177,7 +187,9 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
-    scene::Bounds first_bounds_;  // where the animation begins
+    gl::Buffer sphere_cells_;
+    glm::vec3 sphere_radiance_{-1.0F};  // that the cells were made of; of an image: 0
+    scene::Bounds first_bounds_;        // where the animation begins
     gl::Buffer avg_rays_;
     gl::Buffer avg_numbers_;
     std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps

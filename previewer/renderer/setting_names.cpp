@@ -50,6 +50,13 @@ const std::map<std::string, Importance>& setting_names<Importance>() {
 }
 
 template <>
+const std::map<std::string, WorldSampling>& setting_names<WorldSampling>() {
+    static const std::map<std::string, WorldSampling> names = {{"parts", WorldSampling::parts},
+                                                               {"drawn", WorldSampling::drawn}};
+    return names;
+}
+
+template <>
 const std::map<std::string, BounceSource>& setting_names<BounceSource>() {
     static const std::map<std::string, BounceSource> names = {
         {"points", BounceSource::points}, {"irsm", BounceSource::irsm}, {"avg", BounceSource::avg}};

@@ -10,8 +10,8 @@
 
 namespace bounce {
 
-// For Technique, Visibility, Shading, VplSampling, Importance, BounceSource, AvgHits, AvgPaths,
-// MapProjection, DirectShadows, Splat, PullPush, Show and passes::RsmPattern.
+// For Technique, Visibility, Shading, VplSampling, Importance, WorldSampling, BounceSource, AvgHits,
+// AvgPaths, MapProjection, DirectShadows, Splat, PullPush, Show and passes::RsmPattern.
 template <typename T>
 [[nodiscard]] const std::map<std::string, T>& setting_names();
 
@@ -35,6 +35,8 @@ template <>
 [[nodiscard]] const std::map<std::string, VplSampling>& setting_names<VplSampling>();
 template <>
 [[nodiscard]] const std::map<std::string, Importance>& setting_names<Importance>();
+template <>
+[[nodiscard]] const std::map<std::string, WorldSampling>& setting_names<WorldSampling>();
 template <>
 [[nodiscard]] const std::map<std::string, BounceSource>& setting_names<BounceSource>();
 template <>

@@ -41,6 +41,7 @@ using PullPush = passes::PullPush;
 using VplSampling = passes::VplSampling;
 using BounceSource = passes::BounceSource;
 using Importance = passes::Importance;
+using WorldSampling = passes::WorldSampling;
 using AvgHits = passes::AvgHits;
 using AvgPaths = passes::AvgPaths;
 using MapProjection = passes::MapProjection;
@@ -114,9 +115,10 @@ struct Settings {
 
     // Virtual point lights and imperfect shadow maps.
     int bounces = 1;
-    int vpls = 256;          // of the first bounce
-    int bounce_vpls = 128;   // of each further one
-    int world_vpls = 256;    // that stand for the world, in any technique; 0: its light is not occluded
+    int vpls = 256;         // of the first bounce
+    int bounce_vpls = 128;  // of each further one
+    int world_vpls = 256;   // that stand for the world, in any technique; 0: its light is not occluded
+    WorldSampling world_sampling = WorldSampling::parts;
     int emitter_vpls = 256;  // that stand for emissive surfaces, in any technique; 0: these light nothing
     int bounce_places = 4;   // on a large area light, that its bounced light starts from; a power of two
     int emitter_panels = 2;  // sides of flat rectangles that emit: drawn as area lights instead, at most

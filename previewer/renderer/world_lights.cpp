@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <numbers>
 
+#include "scene/environment.h"
 #include "scene/points/sobol.h"
 
 namespace bounce {
 namespace {
+
+// Cells across, where all send the same: about as far apart as what a texel of a shadow map shows.
+constexpr int k_even_cells = 128;
 
 // Equal areas of the square are equal solid angles.
 glm::dvec3 on_sphere(double u, double v) {
@@ -20,6 +24,15 @@ glm::dvec3 on_sphere(double u, double v) {
 }
 
 }  // namespace
+
+SphereCells even_cells(const glm::vec3& radiance) {
+    SphereCells out{k_even_cells, k_even_cells / 2, {}};
+    for (int y = 0; y < out.height; ++y) {
+        const auto sr = static_cast<float>(scene::environment_texel_sr(out.width, out.height, y));
+        out.light.insert(out.light.end(), static_cast<size_t>(out.width), glm::vec4(radiance * sr, sr));
+    }
+    return out;
+}
 
 glm::dvec3 turned_tangent(const glm::dvec3& way, double turn) {
     const glm::dvec3 other = std::abs(way.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);

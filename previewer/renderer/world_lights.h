@@ -19,6 +19,15 @@ struct DistantMaps {
     float reach = 0.0F;  // half of the cube's side
 };
 
+// The world as cells of the sphere, row by row as an equirectangular image has them, in its own axes.
+struct SphereCells {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec4> light;  // rgb: irradiance on a facing plane, W/m^2; w: solid angle
+};
+// Of one radiance, rgb, W/(m^2 sr).
+[[nodiscard]] SphereCells even_cells(const glm::vec3& radiance);
+
 constexpr uint32_t k_world_lights_seed = 0x57a125U;
 
 // A unit vector across another, turned about it by an angle (radians).

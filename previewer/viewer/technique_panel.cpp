@@ -116,6 +116,7 @@ void technique_section(ViewState& state, PanelResult& result) {
     }
     changed |= choose_size("world's lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.world_vpls, "not occluded");
+    changed |= choose("world's lights are", std::array{"parts of the sky", "drawn"}, settings.world_sampling);
     changed |= choose_size("emitters' lights", std::array{0, 64, 128, 256, 512, 1024, 2048},
                            settings.emitter_vpls, "none");
     changed |= choose_size("emissive panels", std::array{0, 1, 2, 4, 8, 16}, settings.emitter_panels, "none");

@@ -4,9 +4,9 @@
 //
 // The paper ends a ray in the first voxel that holds a surface, other than the one it starts in (WHOLE_VOXELS). Rays that
 // leave a floor at a low angle then end in the next voxel of the same floor. Here a voxel's surface is known to lie
-// within a slab (lib/avg.glsl), and a ray ends where it enters one, or goes on. No surface is passed by, because none is
-// outside of its slab; a flat one is met where it is, however it stands in its voxel; and the place lies on the ray's
-// side of the surface.
+// within two slabs (lib/avg.glsl), one for what faces either way, and a ray ends where it enters one, or goes on. No
+// surface is passed by, because none is outside of its slab; a flat one is met where it is, however it stands in its
+// voxel; and the place lies on the ray's side of the surface.
 #ifndef LIB_AVG_TRACE
 #define LIB_AVG_TRACE
 
@@ -78,8 +78,9 @@ bool trace_avg(vec3 origin, vec3 direction, vec3 leaving, vec2 numbers, out AvgH
     vec3 next = (vec3(cell) + max(vec3(step_), 0.0) - start) * inverse;
     vec3 stride = abs(inverse);
     bool first = t == 0.0;
-    // Where the ray passed the holes of a surface last, of each axis: one that lies between two voxels is in both.
-    vec3 passed = vec3(-1.0);
+    // Where the ray passed the holes of a surface last, of each axis, facing up and down: one that lies between two voxels
+    // is in both.
+    vec2 passed[3] = vec2[3](vec2(-1.0), vec2(-1.0), vec2(-1.0));
     int most = avg.size.x + avg.size.y + avg.size.z;
     for (int i = 0; i < most; ++i) {
         float until = min(min(next.x, next.y), next.z);
@@ -112,23 +113,30 @@ bool trace_avg(vec3 origin, vec3 direction, vec3 leaving, vec2 numbers, out AvgH
                 }
                 uint index = avg_surface_index(word, axis);
                 vec3 n = surfaces[index].normal.xyz;
-                vec2 slab = vec2(surfaces[index].slab.xy) / AVG_SLAB_STEPS;
+                vec4 slabs = vec4(surfaces[index].slab) / AVG_SLAB_STEPS;
                 float coverage = surfaces[index].tensor_rest.w;
                 // Places along the normal at the begin of the ray's way through the voxel, and how they change.
                 float along = dot(n, start + direction * t - (vec3(cell) + 0.5));
                 float slope = dot(n, direction);
-                float into = along > slab.y ? slab.y - along : along < slab.x ? slab.x - along : 0.0;
-                float enter = into == 0.0 ? t : into * slope > 0.0 ? t + into / slope : 1e30;
-                bool own = first && into == 0.0 &&
-                           (leaving == vec3(0.0) || (slab.y - slab.x < AVG_OWN_SLAB && abs(dot(n, leaving)) > AVG_OWN_COSINE));
-                bool met = slab.x <= slab.y && enter <= until + AVG_LEAVE && !own && abs(enter - passed[axis]) > AVG_LEAVE;
-                bool hole = met && chance >= coverage;
-                if (hole) {
-                    passed[axis] = enter;
-                }
-                if (met && !hole && enter < nearest) {
-                    nearest = enter;
-                    found = index;
+                // Where it starts within both, it is not known which of them is its own.
+                bool within_both = along >= slabs.x && along <= slabs.y && along >= slabs.z && along <= slabs.w;
+                for (int side = 0; side < 2; ++side) {
+                    vec2 slab = side == 0 ? slabs.xy : slabs.zw;
+                    float into = along > slab.y ? slab.y - along : along < slab.x ? slab.x - along : 0.0;
+                    float enter = into == 0.0 ? t : into * slope > 0.0 ? t + into / slope : 1e30;
+                    bool own = first && into == 0.0 &&
+                               (leaving == vec3(0.0) || (slab.y - slab.x < AVG_OWN_SLAB && !within_both &&
+                                                         abs(dot(n, leaving)) > AVG_OWN_COSINE));
+                    bool met = slab.x <= slab.y && enter <= until + AVG_LEAVE && !own &&
+                               abs(enter - passed[axis][side]) > AVG_LEAVE;
+                    bool hole = met && chance >= coverage;
+                    if (hole) {
+                        passed[axis][side] = enter;
+                    }
+                    if (met && !hole && enter < nearest) {
+                        nearest = enter;
+                        found = index;
+                    }
                 }
             }
             if (nearest < 1e30) {

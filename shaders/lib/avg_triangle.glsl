@@ -403,8 +403,16 @@ void meet(AvgTriangle t, ivec3 turned_cell) {
     float middle = n_dot_m * dot(m, a);
     float low = max(max(min(min(along.x, along.y), along.z), -of_voxel), middle - of_plane);
     float high = min(min(max(max(along.x, along.y), along.z), of_voxel), middle + of_plane);
-    atomicMin(surfaces[index].slab.x, int(floor((low - AVG_REACH) * AVG_SLAB_STEPS)));
-    atomicMax(surfaces[index].slab.y, int(ceil((high + AVG_REACH) * AVG_SLAB_STEPS)));
+    int least = int(floor((low - AVG_REACH) * AVG_SLAB_STEPS));
+    int most = int(ceil((high + AVG_REACH) * AVG_SLAB_STEPS));
+    // Two sides of a wall, or two walls that face each other, are a slab each, with nothing between them.
+    if (m.z > 0.0) {
+        atomicMin(surfaces[index].slab.x, least);
+        atomicMax(surfaces[index].slab.y, most);
+    } else {
+        atomicMin(surfaces[index].slab.z, least);
+        atomicMax(surfaces[index].slab.w, most);
+    }
 #endif
 }
 

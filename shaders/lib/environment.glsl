@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The world's image, equirectangular, as Cycles lays it out: the middle of its width is seen along +X, a quarter of it
-// along -Z, its top along +Y of its own axes.
+// The world's image, equirectangular.
 #ifndef LIB_ENVIRONMENT
 #define LIB_ENVIRONMENT
 
-#include "lib/math.glsl"
+#include "lib/environment_directions.glsl"
 #include "shared/bindings.h"
 #include "shared/types.h"
 
@@ -13,16 +12,6 @@ layout(std140, binding = UBO_WORLD) uniform WorldBlock {
     WorldUniforms world;
 };
 layout(binding = TEX_ENVIRONMENT) uniform sampler2D environment_texture;
-
-vec2 environment_place(vec3 d) {
-    return vec2(0.5 + atan(d.z, d.x) / (2.0 * PI), atan(length(d.xz), d.y) / PI);
-}
-
-vec3 environment_direction(vec2 place) {
-    float azimuth = 2.0 * PI * (place.x - 0.5);
-    float polar = PI * place.y;
-    return vec3(sin(polar) * cos(azimuth), cos(polar), sin(polar) * sin(azimuth));
-}
 
 vec3 environment_from_render(vec3 d) {
     return vec3(dot(world.environment_from_render[0].xyz, d), dot(world.environment_from_render[1].xyz, d),

@@ -37,12 +37,7 @@ bool load_pixel_light(ivec2 texel, int layer, out PixelLight p) {
 // What a texel counts for when virtual point lights are drawn: the flux it reflects, or what IMPORTANCE_MAP has
 // (passes/vpl_importance.comp).
 #ifdef IMPORTANCE_MAP
-layout(location = UNIFORM_IMPORTANCE_FIRST) uniform int importance_first;  // texel of the light's map
-layout(std430, binding = SSBO_IMPORTANCE) readonly buffer ImportanceBlock { float importance_map[]; };
-
-float texel_importance(ivec2 texel, int layer) {
-    return importance_map[importance_first + (layer * source_rows() + texel.y) * source_size() + texel.x];
-}
+#include "lib/importance_map.glsl"
 #else
 float texel_importance(ivec2 texel, int layer) {
     uvec4 bits = load_rsm(texel, layer);

@@ -65,7 +65,7 @@ void main() {
         vec4(read_sum(first + 18u), read_sum(first + 20u), read_sum(first + 22u), read_sum(first + 24u)) * inverse;
     // Nothing yet; of what shares the last place, anywhere in its voxels.
     bool shared_ = index == uint(avg.size.w) - 1u;
-    surface.slab = shared_ ? ivec4(-0x200000, 0x200000, 0, 0) : ivec4(0x7fffffff, -0x7fffffff, 0, 0);
+    surface.slab = shared_ ? ivec2(-0x200000, 0x200000).xyxy : ivec2(0x7fffffff, -0x7fffffff).xyxy;
     surfaces[index] = surface;
 #endif
 }

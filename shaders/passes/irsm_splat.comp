@@ -29,10 +29,10 @@ void main() {
         bool beside = dot(s.center, s.center) < 4.0 * s.radius2;
         ivec2 low = beside ? ivec2(0) : max(ivec2(floor(s.place - s.reach)), ivec2(0));
         ivec2 high = beside ? ivec2(MAP_SIZE - 1) : min(ivec2(floor(s.place + s.reach)), ivec2(MAP_SIZE - 1));
-        ivec2 extent = high - low + 1;
+        ivec2 extent = max(high - low + 1, ivec2(0));  // both may be negative where the disk lies off the map
         int count = extent.x * extent.y;
         for (int k = 0; k < count; ++k) {
-            ivec2 texel = low + ivec2(k % extent.x, k / extent.x);
+            ivec2 texel = low + ivec2(k % max(extent.x, 1), k / max(extent.x, 1));
             vec3 ray = paraboloid_direction((vec2(texel) + 0.5) * texel_size - 1.0);
             float t = plane / dot(s.normal, ray);
             vec3 off = ray * t - s.center;

@@ -54,10 +54,10 @@ void draw_disk(Splat s, ivec2 origin) {
     float set_back = s.flat_surface ? 0.0 : ism.splat.y * sqrt(s.radius2);
     ivec2 low = max(ivec2(floor(s.place - s.reach)), ivec2(0));
     ivec2 high = min(ivec2(floor(s.place + s.reach)), ivec2(MAP_SIZE - 1));
-    ivec2 extent = high - low + 1;
+    ivec2 extent = max(high - low + 1, ivec2(0));  // both may be negative where the disk lies off the map
     int count = extent.x * extent.y;
     for (int i = 0; i < count; ++i) {
-        ivec2 texel = low + ivec2(i % extent.x, i / extent.x);
+        ivec2 texel = low + ivec2(i % max(extent.x, 1), i / max(extent.x, 1));
         vec2 at = ((vec2(texel) + 0.5) * texel_size - 1.0) * s.window.z + s.window.xy;
         uint bits;
         if (disk_texel(s, plane, set_back, at, bits)) {

@@ -34,12 +34,17 @@ const float SAME_NORMAL = 0.9;
 const float LEAST_WEIGHT = 0.01;
 // The mean of a block's pixels is off by its spread over n in the mean square where each pixel's lights are chosen anew.
 // So the frame before may differ by two of these, or by one where draws moved and their shadows with them; what differs
-// by more is cut to that, and what differs by twice as much is another light, whose mean begins again.
+// by more is cut to that, and what differs by twice as much is another light, whose mean begins again. Where nothing moved but the camera irradiance is what it was, and only what
+// was taken for the same place and is not has to be caught: a clip that noise never meets lets a mean grow long.
 #ifdef MOVED
 const float SPREADS = 1.0;
+const float IRRADIANCE_SPREADS = SPREADS;
 #else
 const float SPREADS = 2.0;
+const float IRRADIANCE_SPREADS = 4.0 * SPREADS;
 #endif
+// Glossy light is another one from each place of the camera.
+const float MOST_GLOSSY_FRAMES = 16.0;
 
 struct Before {
     BouncedLight light;
@@ -111,13 +116,14 @@ Before light_before(ivec2 pixel, vec3 position, vec3 normal) {
     return b;
 }
 
-// The light, pulled towards this frame's until it is no farther off than `most`; by: how far it was, in these.
-vec3 clipped(vec3 light, vec3 now, vec3 most, inout float by) {
-    vec3 off = abs(light - now);
+// The light of `frames` frames, pulled towards this frame's until it is no farther off than `most`, with this frame's
+// taken into the mean. Out: how many frames it is of then.
+vec3 mean_with(vec3 light, vec3 now, vec3 most, inout float frames) {
     // What halves between gather and here round is no difference.
-    vec3 far = off / max(most + now / 1024.0, vec3(1e-6));
-    by = max(by, max(max(far.r, far.g), far.b));
-    return clamp(light, now - most, now + most);
+    vec3 far = abs(light - now) / max(most + now / 1024.0, vec3(1e-6));
+    frames = max(max(far.r, far.g), far.b) > 2.0 ? 1.0 : frames + 1.0;
+    vec3 near = clamp(light, now - most, now + most);
+    return near + (now - near) / frames;
 }
 #endif
 
@@ -133,21 +139,21 @@ void main() {
     vec3 position = pixel_position(min(pixel, last), depth > 0.0 ? depth : 0.5);
     vec3 normal = octahedral_decode(texelFetch(geometric_normal_texture, min(pixel, last), 0).xy * 2.0 - 1.0);
     Before before = light_before(min(pixel, last), position, normal);
-    vec4 most = texelFetch(spread_texture, min(pixel, last) / BLOCK, 0) * (SPREADS * reuse.z);
-    float by = 0.0;
-    vec3 irradiance = clipped(before.light.irradiance, light.irradiance, most.rgb, by);
-    vec3 glossy = clipped(before.light.glossy, light.glossy, vec3(most.a / 3.0), by);
+    vec4 spread = texelFetch(spread_texture, min(pixel, last) / BLOCK, 0) * reuse.z;
     taken = depth > 0.0 && before.frames > 0.0;
-    float own = by > 2.0 ? 0.0 : min(before.frames, reuse.x - 1.0);
-    frames = taken ? own + 1.0 : frames;
-    light.irradiance = taken ? irradiance + (light.irradiance - irradiance) / frames : light.irradiance;
-    light.glossy = taken ? glossy + (light.glossy - glossy) / frames : light.glossy;
+    if (taken) {
+        frames = min(before.frames, reuse.x - 1.0);
+        float glossy_frames = min(frames, MOST_GLOSSY_FRAMES - 1.0);
+        light.irradiance =
+            mean_with(before.light.irradiance, light.irradiance, IRRADIANCE_SPREADS * spread.rgb, frames);
+        light.glossy = mean_with(before.light.glossy, light.glossy, vec3(SPREADS * spread.a / 3.0), glossy_frames);
+    }
 #endif
     if (any(greaterThan(pixel, last))) {
         return;
     }
     imageStore(kept_image, pixel, taken ? pack_bounced(light, depth) : bits);
-    imageStore(frames_image, pixel, uvec4(uint(frames)));
+    imageStore(frames_image, pixel, uvec4(uint(frames + 0.5)));
 #ifdef COUNT
     if (depth > 0.0) {
         atomicAdd(surfaces, 1u);

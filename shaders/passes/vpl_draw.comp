@@ -12,6 +12,7 @@
 //
 // SEEDED: for pictures that are the mean of many. The children's places in the cell turn with the seed, and one of them,
 // picked by flux, is the light, with the cell's flux: single pictures are noisier, but their mean has no midpoint rule in it.
+// With MIDDLE the light stays the mean of its children, for frames that are shown one by one and have to be quiet.
 // EXTENT is what is left then of the area that a light stands for, as the many together leave less to each.
 //
 // STRIPS: rows are patches of surface in the order of a curve, and a cell is a run of whole rows: what lies there has
@@ -294,7 +295,7 @@ void main() {
         sum += fluxes[i];
     }
     PixelLight chosen = children[picked];
-#ifdef SEEDED
+#if defined(SEEDED) && !defined(MIDDLE)
     // Picked in proportion to flux, it stands for all of it.
     float standing = fluxes[picked] > 0.0 ? measures[picked] * (flux / fluxes[picked]) : 0.0;
     if (!(standing > 0.0)) {

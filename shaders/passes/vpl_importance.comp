@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The importance map: what each texel of a light's reflective shadow map counts for when virtual point lights are drawn. The
+// The importance map: what each texel of a light's reflective shadow map (SPHERE: each cell of the world) counts for when virtual point lights are drawn. The
 // flux it reflects; VIEW: what some pixels of the picture show of it, were nothing in between (Barak, Bittner and Havran
 // 2013, "Temporally Coherent Adaptive Sampling for Imperfect Shadow Maps", equations 1 and 2).
 //
 // The floor keeps every texel that reflects anything: a light counts for no less than that part of what it would show on
 // white across the whole scene (the unit of length). Without it a light that shows in none of the pixels looked at is never
 // drawn, and the pixels between them lack it.
+#ifdef SPHERE
+#include "lib/sphere.glsl"
+#else
 #define READ_RSM
 #include "lib/vpl_importance.glsl"
+#endif
 #ifdef VIEW
 #include "lib/importance_pixels.glsl"
 #include "lib/vpl_make.glsl"
@@ -19,7 +23,24 @@ layout(location = 0) uniform ivec3 source;  // first texel, texels, pixels looke
 layout(location = 1) uniform vec2 standing;  // texels that a light stands for, floor
 layout(std430, binding = SSBO_IMPORTANCE) writeonly buffer ImportanceBlock { float importance[]; };
 
-#ifdef VIEW
+#if defined(VIEW) && defined(SPHERE)
+float viewed(ivec2 texel, int layer) {
+    vec4 cell = sphere_cell(texel);
+    vec3 way = sphere_way(texel, vec2(0.5));
+    GpuVpl vpl = dark_vpl();
+    vpl.normal = vec4(way, 1.0);
+    vpl.incident = vec4(way, 1.0);
+    vpl.intensity = vec4(cell.rgb, 0.0);
+    float sum = 0.0;
+    for (int i = 0; i < source.z; ++i) {
+        GpuImportancePixel at = importance_pixels[i];
+        float cosine = max(-dot(at.normal.xyz, way), 0.0);
+        // As passes/vpl_gather.comp has it.
+        sum += shown_luminance(at, vpl, way, 1.0, cosine, cosine, WIDENING * cell.w * standing.x);
+    }
+    return sum + standing.y * texel_importance(texel, layer) / PI;
+}
+#elif defined(VIEW)
 float viewed(ivec2 texel, int layer) {
     PixelLight p;
     if (!load_pixel_light(texel, layer, p)) {

@@ -3,6 +3,8 @@
 // run of texels. FROM_IRSM: of imperfect maps.
 #ifdef FROM_IRSM
 #include "lib/irsm.glsl"
+#elif defined(SPHERE)
+#include "lib/sphere.glsl"
 #else
 #define READ_RSM
 #include "lib/vpl_importance.glsl"

@@ -14,6 +14,7 @@
 #define UBO_SHADOW_VIEWS 6
 #define UBO_WORLD 7
 #define UBO_AVG 8
+#define UBO_SPHERE 9
 
 // Storage buffers. OpenGL promises eight, so passes that never run together share numbers.
 #define SSBO_DRAWS 0
@@ -38,6 +39,7 @@
 #define SSBO_IMPORTANCE_PIXELS 4
 #define SSBO_VPL_SOURCES 6
 #define SSBO_VPL_CHOICES 4
+#define SSBO_SPHERE 1
 #define SSBO_POINTS 7
 #define SSBO_TRIANGLES 7
 #define SSBO_PATCH_DROPPED 2

@@ -53,6 +53,13 @@ struct WorldUniforms {
                             // prefiltered image, -
 };
 
+// The world as cells that lights are drawn from (lib/sphere.glsl).
+struct SphereUniforms {
+    vec4 render_from_environment[3];  // rows of the rotation
+    ivec4 grid;             // cells across and down, -, -
+    vec4 light;             // strength, weight of a luminance where visibility is averaged for reflections, -, -
+};
+
 // One rasterised view: the camera or a face of a light.
 struct ViewUniforms {
     mat4 clip_from_render;
@@ -170,8 +177,8 @@ struct GpuAvgVoxel {
     vec4 normal;            // xyz unit, the tensor's main direction, on no particular side; -
     vec4 color;             // base colour, mean by area; -
     vec4 surface;           // roughness, metallic, specular, 1 where the diffuse lobe is Disney's
-    ivec4 slab;             // least and largest place of the surfaces along `normal` from the voxel's middle, voxels
-                            // * AVG_SLAB_STEPS; -; -
+    ivec4 slab;             // least and largest place along `normal` from the voxel's middle, voxels * AVG_SLAB_STEPS,
+                            // of the surfaces that face up their axis, and of those that face down
 };
 #define AVG_SLAB_STEPS 1048576.0
 

@@ -228,4 +228,33 @@ inline std::vector<glm::vec3> box_triangles(const glm::vec3& half, int n) {
     return out;
 }
 
+inline int main_axis(const glm::dvec3& n) {
+    const glm::dvec3 a = glm::abs(n);
+    return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
+
+// Whether a place of a triangle is in the grid, and inside of what bounds there what faces as it does.
+// across: along its normal, by the order of its corners.
+inline ::testing::AssertionResult holds(const ReadGrid& grid, const glm::dvec3& world,
+                                        const glm::dvec3& across) {
+    const glm::dvec3 at = grid.voxels(world);
+    const glm::ivec3 cell(glm::floor(at));
+    if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, grid.size()))) {
+        return ::testing::AssertionFailure() << "outside of the grid";
+    }
+    const int axis = main_axis(across);
+    const gpu::GpuAvgVoxel* surface = grid.at(cell, axis);
+    if (surface == nullptr) {
+        return ::testing::AssertionFailure() << "no surface at " << at.x << ' ' << at.y << ' ' << at.z;
+    }
+    const double along = glm::dot(glm::dvec3(glm::vec3(surface->normal)), at - glm::dvec3(cell) - 0.5);
+    const bool up = across[axis] > 0.0;
+    const double low = (up ? surface->slab.x : surface->slab.z) / AVG_SLAB_STEPS;
+    const double high = (up ? surface->slab.y : surface->slab.w) / AVG_SLAB_STEPS;
+    if (!(along >= low && along <= high)) {
+        return ::testing::AssertionFailure() << along << " is not from " << low << " to " << high;
+    }
+    return ::testing::AssertionSuccess();
+}
+
 }  // namespace bounce::test

@@ -119,6 +119,22 @@ TEST_F(WorldLight, AFarGroundDoesNotCoarsenTheMaps) {
     EXPECT_NEAR(darkest(3000.0F), small, 0.02) << "a texel's width of the shadow, at most";
 }
 
+TEST_F(WorldLight, PointsFarOffTheMapsAreNotDrawn) {
+    // The maps show what stands on the ground; where that is no large triangle but points, most of these lie
+    // beside the maps, many along both axes. Drawn into other texels they would hide anything,
+    // or end the program. 10 %: points metres apart hide some of what stands between them.
+    scene::Scene scene = under_world(1.0F);
+    add_mesh_node(scene, add_square(scene, 200.0F, add_diffuse(scene)), glm::dmat4(1.0));
+    add_mesh_node(scene, add_box(scene, glm::vec3(0.5F), add_diffuse(scene, glm::vec3(0.2F))),
+                  moved({0.0, 0.0, 0.25}));
+    Settings settings = lit_directly(256);
+    const double triangles = middle(draw(scene, camera_from_above(4.0, 20.0), settings));
+    settings.large_triangles = false;
+    settings.drop_hull = false;
+    const Rendered points = draw(scene, camera_from_above(4.0, 20.0), settings);
+    EXPECT_NEAR(middle(points) / triangles, 1.0, 0.1);
+}
+
 TEST_F(WorldLight, AClosedRoomIsBlack) {
     // Walls without thickness, a corner in every direction. What leaks through is less than a thousandth of
     // the world.

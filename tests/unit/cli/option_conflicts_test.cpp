@@ -155,6 +155,30 @@ TEST(OptionConflicts, FurtherBouncesNeedMoreThanOne) {
     EXPECT_EQ(conflict(of, {.bounces = 2}), "");
 }
 
+TEST(OptionConflicts, SamplersHaveTheirOwnOptions) {
+    const auto steps = [](RenderOptions& o) { o.vpl_steps = 5; };
+    const auto importance = [](RenderOptions& o) { o.vpl_importance = "view"; };
+    const auto pixels = [](RenderOptions& o) { o.importance_pixels = 1.0F; };
+    const auto floor = [](RenderOptions& o) { o.importance_floor = 0.0F; };
+    const auto world = [](RenderOptions& o) { o.world_sampling = "drawn"; };
+    const Settings chain{.vpl_sampling = VplSampling::metropolis};
+    const Settings viewed{.vpl_importance = Importance::view};
+    EXPECT_THAT(conflict(steps, {}), AllOf(HasSubstr("--vpl-steps"), HasSubstr("inverse-transform")));
+    EXPECT_EQ(conflict(steps, chain), "");
+    EXPECT_THAT(conflict(importance, {.vpl_sampling = VplSampling::uniform3}),
+                AllOf(HasSubstr("--vpl-importance"), HasSubstr("uniform3")));
+    EXPECT_EQ(
+        conflict(importance, {.world_sampling = WorldSampling::drawn, .vpl_sampling = VplSampling::uniform3}),
+        "");
+    EXPECT_EQ(conflict(importance, viewed), "");
+    EXPECT_THAT(conflict(pixels, {}), AllOf(HasSubstr("--importance-pixels"), HasSubstr("view")));
+    EXPECT_THAT(conflict(floor, {}), HasSubstr("--importance-floor"));
+    EXPECT_EQ(conflict(floor, viewed), "");
+    EXPECT_THAT(conflict(importance, {.technique = Technique::rsm}), HasSubstr("technique rsm"));
+    EXPECT_THAT(conflict(world, {.world_vpls = 0}), HasSubstr("--world-sampling"));
+    EXPECT_EQ(conflict(world, {}), "");
+}
+
 TEST(OptionConflicts, LayersHaveTheirOwnOptions) {
     const auto light = [](RenderOptions& o) { o.light = 0; };
     const auto vpl = [](RenderOptions& o) { o.vpl = 5; };

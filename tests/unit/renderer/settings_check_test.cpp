@@ -35,11 +35,45 @@ void expect_range(const std::string& name, int low, int high,
 }
 
 TEST(SettingsRefusal, EveryPresetCanBeDrawn) {
-    for (const Preset preset : {Preset::automatic, Preset::rsm2005, Preset::ism2008, Preset::lv2009}) {
+    for (const Preset preset : {Preset::automatic, Preset::rsm2005, Preset::ism2008, Preset::lv2009,
+                                Preset::avg2012, Preset::metropolis2013}) {
         EXPECT_EQ(settings_refusal(preset_settings(preset)), "");
         EXPECT_EQ(limits_refusal(preset_settings(preset), {}), "");
         EXPECT_EQ(layer_refusal(preset_settings(preset)), "");
     }
+}
+
+TEST(SettingsRefusal, ImportanceAndChainsHaveRanges) {
+    EXPECT_THAT(refusal([](Settings& s) { s.vpl_steps = 0; }), HasSubstr("--vpl-steps is 0"));
+    EXPECT_THAT(refusal([](Settings& s) { s.vpl_steps = 1001; }), HasSubstr("--vpl-steps is 1001"));
+    for (const float pixels : {0.0F, -1.0F, 10.5F, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.importance_pixels = pixels; }),
+                    HasSubstr("--importance-pixels"));
+    }
+    for (const float floor : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_THAT(refusal([&](Settings& s) { s.importance_floor = floor; }),
+                    HasSubstr("--importance-floor"));
+    }
+    EXPECT_EQ(refusal([](Settings& s) {
+                  s.vpl_steps = 1;
+                  s.importance_pixels = 10.0F;
+                  s.importance_floor = 0.0F;
+              }),
+              "");
+}
+
+TEST(SettingsRefusal, Metropolis2013IsThePaperSettings) {
+    const Settings s = preset_settings(Preset::metropolis2013);
+    EXPECT_EQ(s.technique, Technique::ism);
+    EXPECT_EQ(s.vpls, 1024);
+    EXPECT_EQ(s.ism_size * 32, 2048) << "an atlas of 32 x 32 maps";
+    EXPECT_EQ(s.vpl_sampling, VplSampling::metropolis);
+    EXPECT_EQ(s.vpl_importance, Importance::view);
+    EXPECT_EQ(s.world_sampling, WorldSampling::drawn);
+    EXPECT_FLOAT_EQ(s.importance_pixels, 0.1F);
+    EXPECT_EQ(s.importance_floor, 0.0F);
+    EXPECT_EQ(s.splat, Splat::tessellation);
+    EXPECT_FALSE(s.temporal_reuse);
 }
 
 TEST(SettingsRefusal, Lv2009IsThePaperSettings) {
