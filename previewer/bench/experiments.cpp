@@ -97,6 +97,9 @@ const std::vector<Experiment>& experiments() {
          measure_avg_stages},
         {"avg-table2", "Approximate visibility grids against screen size",
          "frames a second of preset avg2012 against screen size (Table II of 2012)", measure_avg_screens},
+        {"vpl-sampling", "Samplers of virtual point lights",
+         "time, mean, flicker and error of each --vpl-sampling (Table 2, Figures 6 to 8 of 2013)",
+         measure_vpl_sampling},
     };
     return all;
 }

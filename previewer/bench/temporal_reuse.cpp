@@ -2,14 +2,10 @@
 //
 // What light of the frames before does to the error and the flicker of bounced light, and what it costs,
 // while the camera, an object or a light moves.
-#include <algorithm>
-#include <functional>
-#include <map>
-
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/experiments.h"
+#include "bench/motions.h"
 #include "image/sequence_metrics.h"
 
 namespace bounce::bench {
@@ -22,91 +18,6 @@ constexpr int k_reference_vpls = 4096;
 constexpr int k_width = 320;
 constexpr int k_height = 180;
 constexpr double k_step = 0.004;  // of the scene's diagonal, that what moves moves by in a frame
-
-struct Shot {
-    scene::Pose pose;
-    CameraView camera;
-};
-
-struct Motion {
-    std::string name;
-    bool still = false;
-    std::function<Shot(int)> shot;  // by the frame's number, from 0
-};
-
-size_t at(int index) {
-    return static_cast<size_t>(index);
-}
-
-// The draw with the largest extent below half of the scene's; k_none where there is none.
-int find_object(const scene::Scene& scene, const scene::Pose& pose, double diagonal) {
-    int found = scene::k_none;
-    double extent = 0.0;
-    for (size_t i = 0; i < pose.draws.size(); ++i) {
-        scene::Bounds bounds;
-        for (const scene::Primitive& primitive : scene.meshes[at(pose.draws[i].mesh)].primitives) {
-            scene::grow_by_primitive(bounds, pose, pose.draws[i], primitive.bounds);
-        }
-        if (pose.draws[i].skin == scene::k_none && bounds.diagonal() > extent &&
-            bounds.diagonal() < diagonal / 2.0) {
-            extent = bounds.diagonal();
-            found = static_cast<int>(i);
-        }
-    }
-    return found;
-}
-
-std::vector<Motion> motions(const BenchInputs& inputs, const Settings& settings, BenchReport& report) {
-    const scene::Scene& scene = inputs.scene;
-    const int animation = scene::default_animation(scene);
-    const scene::Pose still =
-        scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, inputs.frame()), animation);
-    const auto camera_of = [&scene, &inputs, settings](const scene::Pose& pose) {
-        return scene_camera(scene, pose, inputs.options.camera, settings.width, settings.height);
-    };
-    const double diagonal = scene::world_bounds(scene, still).diagonal();
-    const glm::dvec3 along(diagonal * k_step, 0.0, 0.0);
-    std::vector<Motion> out;
-    out.push_back({"nothing", true, [=](int) { return Shot{still, camera_of(still)}; }});
-    out.push_back({"the camera", false, [=](int frame) {
-                       CameraView view = camera_of(still);
-                       view.world_from_camera =
-                           view.world_from_camera *
-                           glm::translate(glm::dmat4(1.0), along * static_cast<double>(frame));
-                       return Shot{still, view};
-                   }});
-    if (const int object = find_object(scene, still, diagonal); object != scene::k_none) {
-        out.push_back({"an object", false, [=](int frame) {
-                           Shot shot{still, camera_of(still)};
-                           const glm::dvec3 by = along * static_cast<double>(frame);
-                           const int node = shot.pose.draws[at(object)].node;
-                           shot.pose.world_from_node[at(node)][3] += glm::dvec4(by, 0.0);
-                           for (scene::DrawInstance& draw : shot.pose.draws) {
-                               draw.world_from_model[3] +=
-                                   draw.node == node ? glm::dvec4(by, 0.0) : glm::dvec4(0.0);
-                           }
-                           return shot;
-                       }});
-    } else {
-        report.notes.emplace_back("nothing is small enough to be moved as an object");
-    }
-    if (!still.light_instances.empty()) {
-        out.push_back({"a light", false, [=](int frame) {
-                           Shot shot{still, camera_of(still)};
-                           shot.pose.light_instances[0].world_from_light[3] +=
-                               glm::dvec4(along * static_cast<double>(frame), 0.0);
-                           return shot;
-                       }});
-    }
-    if (!scene.animations.empty()) {
-        out.push_back({"the scene's animation", false, [=, &scene, &inputs](int frame) {
-                           const double time = scene::time_of_frame(scene.frames, inputs.frame() + frame);
-                           const scene::Pose pose = scene::evaluate_pose(scene, time, animation);
-                           return Shot{pose, camera_of(pose)};
-                       }});
-    }
-    return out;
-}
 
 // One way to draw a motion: its renderer, figures and times.
 class Run {
@@ -202,7 +113,7 @@ void measure_temporal_reuse(const BenchInputs& inputs, BenchReport& report) {
                     {"frame with reuse", "ms"},
                     {"reuse", "ms"}},
         .rows = {}};
-    const std::vector<Motion> all = motions(inputs, settings, report);
+    const std::vector<Motion> all = scene_motions(inputs, settings, k_step, report);
     Progress progress("bench temporal-reuse", static_cast<int>(all.size()));
     for (const Motion& motion : all) {
         Run reference(inputs.scene, inputs, exact);
@@ -227,7 +138,8 @@ void measure_temporal_reuse(const BenchInputs& inputs, BenchReport& report) {
     }
     table.note = fmt::format(
         "{} frames, {}x{}, indirect light alone; the camera moves aside, object and light by {:g} % of the "
-        "scene's diagonal a frame. Against the same with {} VPLs; relMSE, and FLIP between consecutive "
+        "scene's diagonal a frame (a sun turns by that part of a radian). Against the same with {} VPLs; "
+        "relMSE, and FLIP between consecutive "
         "frames (docs/metrics.md), over the second half of the frames.",
         frames, settings.width, settings.height, 100.0 * k_step, k_reference_vpls);
     report.tables.push_back(std::move(table));

@@ -76,7 +76,7 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
                 gl::Defines defines = light_defines(source.light);
                 if (inputs.glossy) defines["GLOSSY"] = "1";
                 if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
-                const bool mapped = inputs.importance.map.valid() && inputs.importance.even.empty();
+                const bool mapped = inputs.importance.map.valid() && inputs.importance.even_part < 1.0F;
                 if (mapped) read_importance_map(defines);
                 context.programs.compute("passes/near_field.comp", defines).use();
                 if (mapped) bind_importance_map(resources, inputs.importance.map, first_texel);
@@ -85,7 +85,8 @@ TextureHandle add_near_field(FrameGraph& graph, const PassContext& context, cons
                 glUniform1i(0, inputs.importance.row_count);
                 const glm::vec2 turns = seeded_turns(inputs.seed);
                 glUniform3f(2, turns.x, turns.y, inputs.extent);
-                glUniform1f(3, inputs.importance.even.empty() ? 0.0F : inputs.importance.even[number]);
+                glUniform2f(3, inputs.importance.even.empty() ? 0.0F : inputs.importance.even[number],
+                            inputs.importance.even_part);
                 for (int round = 0; round < rounds; ++round) {
                     glUniform2i(1, round, rounds);
                     glDispatchComputeIndirect(0);

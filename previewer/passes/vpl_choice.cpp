@@ -28,8 +28,7 @@ int sampler_of(VplSampling sampling) {
 }
 
 bool reads_rows(VplSampling sampling) {
-    return sampling == VplSampling::inverse2 || sampling == VplSampling::inverse3 ||
-           sampling == VplSampling::metropolis_unreduced;
+    return sampling == VplSampling::inverse2 || sampling == VplSampling::inverse3 || is_chain(sampling);
 }
 
 bool reads_texels(VplSampling sampling) {

@@ -15,9 +15,9 @@ struct Choosing {
 };
 
 // A texel for each light: uvec4 of the source's number, the texel's among the source's, and how many texels
-// the light stands for (float bits; 0 where nothing is to be had). Each is an unbiased estimate of the sum
-// over all texels, but for Metropolis' at a finite length of chain; shaders/passes/vpl_choose.comp has the
-// methods and their sources.
+// the light is worth and how many lie around it with no other light (float bits; 0 where nothing is to be
+// had). Each is an unbiased estimate of the sum over all texels, but for Metropolis' at a finite length of
+// chain; shaders/passes/vpl_choose.comp has the methods and their sources.
 [[nodiscard]] BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
                                           const std::vector<MapSource>& sources,
                                           const ImportanceTables& tables, const Choosing& choosing,

@@ -75,15 +75,22 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
     return vpls;
 }
 
+// VplImportance::even_part.
+float even_part(const Drawing& drawing) {
+    if (is_chain(drawing.sampling)) {
+        return 1.0F / static_cast<float>(drawing.steps);
+    }
+    return drawing.sampling == VplSampling::uniform || drawing.sampling == VplSampling::uniform3 ? 1.0F
+                                                                                                 : 0.0F;
+}
+
 // Texels that each light stands for, where lights are drawn evenly.
 std::vector<float> even_texels(const std::vector<MapSource>& sources, int lights, VplSampling sampling) {
     std::vector<float> out;
-    if (sampling == VplSampling::uniform || sampling == VplSampling::uniform3) {
-        for (const MapSource& source : sources) {
-            const float share = sampling == VplSampling::uniform ? source.share.y - source.share.x
-                                                                 : 1.0F / static_cast<float>(sources.size());
-            out.push_back(static_cast<float>(source.texels()) / (static_cast<float>(lights) * share));
-        }
+    for (const MapSource& source : sources) {
+        const float share = sampling == VplSampling::uniform ? source.share.y - source.share.x
+                                                             : 1.0F / static_cast<float>(sources.size());
+        out.push_back(static_cast<float>(source.texels()) / (static_cast<float>(lights) * share));
     }
     return out;
 }
@@ -102,7 +109,7 @@ DrawnVpls add_vpls(FrameGraph& graph, const PassContext& context, const std::vec
     }
     DrawnVpls out{layout,
                   {tables.buffers.rows, rows_of(sources), importance,
-                   even_texels(sources, layout.maps, drawing.sampling)}};
+                   even_texels(sources, layout.maps, drawing.sampling), even_part(drawing)}};
     out.set.vpls = add_draw(graph, context, sources, tables, layout, of, drawing.sampling);
     return out;
 }

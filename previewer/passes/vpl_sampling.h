@@ -32,8 +32,11 @@ struct VplImportance {
     int row_count = 0;
     BufferHandle
         map;  // of each texel (passes/vpl_importance.h); invalid where it is the flux as the maps have it
-    // Per source, where its lights are drawn evenly whatever their importance: texels that each stands for.
+    // Texels that a light around a texel stands for are the weighed mean of how many that is where lights lie
+    // evenly, per source, and of what its importance makes it. even_part: weight of the former, 1 for lights
+    // that are drawn whatever their importance, 1/M for chains of M proposals (passes/vpl_choose.comp).
     std::vector<float> even;
+    float even_part = 0.0F;
 };
 
 // How the lights of a first bounce are drawn.

@@ -127,7 +127,9 @@ struct Settings {
     float importance_pixels = 0.1F;  // of the picture's pixels that a light's view is judged by, per cent
     // What a light counts for at least, of what it would show on white across the whole scene.
     float importance_floor = 0.05F;
-    int vpl_steps = 10;  // proposals of a chain, where lights are drawn by chains
+    // Proposals of a chain, where lights are drawn by chains: these lie at most so many times as densely as
+    // even ones (docs/papers/temporally_coherent_sampling.md).
+    int vpl_steps = 100;
     Shading shading = Shading::deferred;
     scene::Simplification simplify{};  // of meshes that are drawn simplified
     Visibility visibility = Visibility::ism;

@@ -19,8 +19,8 @@ layout(location = 0) uniform int rows;    // rows of all maps together
 layout(location = 1) uniform ivec2 round_;  // which of how many sets of samples this is
 layout(location = 2) uniform vec3 turns;    // by how much samples are turned, parts of the step and of the circle; extent of
                                             // a light, as in passes/vpl_draw.comp
-layout(location = 3) uniform float even;    // texels that a light stands for, where that is the same everywhere; 0: it
-                                            // follows from their importance
+layout(location = 3) uniform vec2 even;     // texels that a light stands for where that is the same everywhere, and the part
+                                            // of that in the mean with what follows from their importance
 layout(binding = IMG_OUT, rgba32ui) uniform uimage2D bounced_image;
 layout(std430, binding = SSBO_PIXEL_LIST) readonly buffer TileBlock {
     uvec2 tiles[];
@@ -77,12 +77,12 @@ void add_sample(Center at, vec2 st, int layer, float measure, float radius, inou
     float cos_in = max(-dot(at.s.normal, w), 0.0);
     // What a light there stands for of the map.
 #ifdef IMPORTANCE_MAP
-    float texels = even > 0.0 ? even : at.importance_a_vpl / max(texel_importance(texel, layer), 1e-30);
-    float standing = texels * texel_measure(texel, p);
+    float by_importance = at.importance_a_vpl / max(texel_importance(texel, layer), 1e-30);
+    float standing = mix(by_importance, even.x, even.y) * texel_measure(texel, p);
 #else
     // texel_importance / texel_measure: the flux a unit of the map reflects.
-    float standing = even > 0.0 ? even * texel_measure(texel, p)
-                                : at.importance_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
+    float standing = even.y > 0.0 ? even.x * texel_measure(texel, p)
+                                  : at.importance_a_vpl / max(importance_density(p.color, p.metallic, p.arriving), 1e-30);
 #endif
     float area = surface_area(p, standing) * light.cone.z * turns.z;  // as in passes/vpl_draw.comp
     float share = near_share(squared, 1.0 / max(NEAR_RADIUS * NEAR_RADIUS * area, 1e-30));

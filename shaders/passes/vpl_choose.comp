@@ -50,8 +50,11 @@ float importance_of(Choice c) {
     return importance[sources[c.source].x + c.texel];
 }
 
-void store(Choice c, float texels) {
-    choices[gl_GlobalInvocationID.x] = uvec4(c.source, c.texel, floatBitsToUint(texels), 0u);
+// texels: what its light is worth. standing: what lies around it with no other light in it, by how densely the sampler puts
+// them there; a function of the texel alone, so that a light's size does not change with the luck of its chain and the near
+// field, which knows the texels only, agrees with it.
+void store(Choice c, float texels, float standing) {
+    choices[gl_GlobalInvocationID.x] = uvec4(c.source, c.texel, floatBitsToUint(texels), floatBitsToUint(standing));
 }
 
 #if SAMPLER == SAMPLER_INVERSE2 || SAMPLER == SAMPLER_INVERSE3
@@ -113,7 +116,7 @@ void main() {
     }
     float total = running_sums[counts.z - 1];
     if (!(total > 0.0)) {
-        store(Choice(0u, 0u), 0.0);
+        store(Choice(0u, 0u), 0.0, 0.0);
         return;
     }
     vec4 h = halton(index);
@@ -135,7 +138,8 @@ void main() {
     uint first = source.x + (row - source.z) * size;
     c.texel = (row - source.z) * size + find_texel(first, size, in_row * texel_sums[first + size - 1u]);
     float f = importance_of(c);
-    store(c, f > 0.0 ? total / (f * float(counts.x)) : 0.0);
+    float texels = f > 0.0 ? total / (f * float(counts.x)) : 0.0;
+    store(c, texels, texels);
 }
 #else
 // Where the number i of 0 to n - 1 goes in a permutation of them, another one for each round; round 0 changes nothing.
@@ -179,7 +183,8 @@ void main() {
     float inverse_density;
     Choice c = propose(halton(index).xyz, inverse_density);
 #if SAMPLER == SAMPLER_UNIFORM
-    store(c, importance_of(c) > 0.0 ? inverse_density / float(n) : 0.0);
+    float texels = importance_of(c) > 0.0 ? inverse_density / float(n) : 0.0;
+    store(c, texels, texels);
 #else
     float f = importance_of(c) * inverse_density;
     float first = f;
@@ -207,7 +212,11 @@ void main() {
 #else
     float weight = sum / float(counts.w);
 #endif
-    store(c, f > 0.0 ? weight / f * inverse_density / float(n) : 0.0);
+    // What the light would be worth, were all proposals of its chain but the last state as important as texels are in the
+    // mean: at one step uniform sampling, at many one over the density that is in proportion to importance.
+    float expected = (f + float(counts.w - 1) * running_sums[counts.z - 1]) / float(counts.w);
+    float texels = inverse_density / (max(f, 1e-30) * float(n));
+    store(c, f > 0.0 ? weight * texels : 0.0, expected * texels);
 #endif
 }
 #endif

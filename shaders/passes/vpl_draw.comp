@@ -105,7 +105,8 @@ void widen(inout GpuVpl vpl, float spread) {
 
 #if defined(CHOSEN) || defined(HALTON)
 // The light that is a single texel and stands for so many.
-void store_texel(int index, ivec2 texel, int layer, float texels) {
+// standing: how many lie around it without another light.
+void store_texel(int index, ivec2 texel, int layer, float texels, float standing) {
     PixelLight p;
     if (!load_pixel_light(texel, layer, p) || !(texels > 0.0)) {
         drawn[index] = dark_vpl();
@@ -114,9 +115,9 @@ void store_texel(int index, ivec2 texel, int layer, float texels) {
     float measure = texel_measure(texel, p) * texels;
     GpuVpl vpl = make_vpl(p, measure);
 #if defined(GLOSSY) && MAP_KIND != MAP_ORTHOGRAPHIC
-    widen(vpl, WIDENING * measure * extent);
+    widen(vpl, WIDENING * texel_measure(texel, p) * standing * extent);
 #endif
-    store(index, vpl, surface_area(p, measure));
+    store(index, vpl, surface_area(p, texel_measure(texel, p) * standing));
 }
 #endif
 
@@ -129,7 +130,7 @@ void main() {
     int size = source_size();
     int row = int(choices[index].y) / size;
     store_texel(index, ivec2(int(choices[index].y) % size, row % source_rows()), row / source_rows(),
-                uintBitsToFloat(choices[index].z));
+                uintBitsToFloat(choices[index].z), uintBitsToFloat(choices[index].w));
 }
 #elif defined(HALTON)
 void main() {
@@ -150,7 +151,8 @@ void main() {
     int layer = min(int(across), faces - 1);
     ivec2 texel = min(ivec2(vec2(across - float(layer), h.y) * float(size)), ivec2(size - 1));
     // Texels that one of the source's points stands for.
-    store_texel(index, texel, layer, float(size) * float(rows.y) / (float(maps.x) * (share.y - share.x)));
+    float texels = float(size) * float(rows.y) / (float(maps.x) * (share.y - share.x));
+    store_texel(index, texel, layer, texels, texels);
 }
 #else
 // The first row whose running sum exceeds the value.

@@ -7,7 +7,7 @@ import browser
 import pytest
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
-               "lv-fig7", "avg-table1", "avg-table2"]
+               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -110,6 +110,43 @@ def test_reuse_of_light(bounce, tmp_path):
     light = rows["a light"]
     assert light["with reuse"] == light["relMSE"] and light["reused"] == 0
     assert light["FLIP with reuse"] == light["FLIP a step"]
+
+
+def test_samplers_of_lights(bounce, tmp_path):
+    """Chains of one proposal are uniform sampling; ratios are of the figures beside them; checks follow from the table."""
+    result = bounce("bench", "vpl-sampling", "-o", "out", *TINY)
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    times, lengths, dimensions, causes, walks = report["tables"]
+
+    def rows_of(table):
+        names = [column["name"] for column in table["columns"]]
+        return [dict(zip(names, row)) for row in table["rows"]]
+
+    for row in rows_of(times):
+        sums = row["running sums"] if row["sampler"] == "inverse3" else 0
+        assert row["choice"] > 0 and row["sampling"] == pytest.approx(row["choice"] + sums)
+    assert [row["paper"] for row in rows_of(times)[:6]] == [0.25, 0.62, 0.26, 0.30, 0.34, 0.44]
+    one, two = rows_of(lengths)
+    assert (one["proposals"], two["proposals"]) == (1, 2)
+    assert one["metropolis"] == one["resampled"] and one["metropolis-unreduced"] != one["metropolis"]
+    assert two["metropolis"] != two["metropolis-unreduced"]
+    assert [row["ism-n-r-lights"] for row in rows_of(dimensions)] == [
+        f"ism-{n}-{kind}-{lights}" for n, lights in ((16, 256), (1, 1024)) for kind in ("r2", "r3", "metropolis")]
+    for table, group in ((causes, "picture"), (walks, "what moves")):
+        for row in rows_of(table):
+            base = next(other for other in rows_of(table) if other[group] == row[group] and other["sampler"] == "inverse3")
+            assert row["TID"] > 0 and row["over inverse3"] == pytest.approx(row["TID"] / base["TID"])
+            assert row["NRMSE"] > 0 and row["over inverse3's"] == pytest.approx(row["NRMSE"] / base["NRMSE"])
+    assert {row["what moves"] for row in rows_of(walks)} == {"the camera", "an object", "a light"}
+    by = {(row["what moves"], row["sampler"]): row for row in rows_of(walks)}
+    for moves in ("the camera", "an object", "a light"):
+        tid, error = (check for check in report["checks"] if check["what"].startswith(moves + ":"))
+        assert tid["value"] == by[moves, "metropolis"]["over inverse3"] and tid["limit"] == 0.5
+        assert error["value"] == by[moves, "metropolis"]["over inverse3's"] and error["limit"] == 1.15
+    # As rendered is what the walk measured.
+    assert rows_of(causes)[0]["TID"] == by["the camera", "inverse3"]["TID"]
+    assert any("GTX 470" in line for line in report["paper"])
 
 
 def test_maps_of_simplified_meshes(bounce, tmp_path):

@@ -22,6 +22,7 @@ struct Map {
 struct Chosen {
     size_t texel = 0;  // among those of all maps
     double texels = 0.0;
+    double standing = 0.0;  // texels around it without another light
 };
 
 // Two lights whose maps differ in size, with importance that spreads over three decades and is nothing in
@@ -112,7 +113,8 @@ class VplChoice : public ::testing::Test {
             return [&](const PassResources& resources) {
                 for (const glm::uvec4& c :
                      resources.buffer(choices).read<glm::uvec4>(static_cast<size_t>(choosing.lights))) {
-                    out.push_back({first.at(c.x) + c.y, static_cast<double>(glm::uintBitsToFloat(c.z))});
+                    out.push_back({first.at(c.x) + c.y, static_cast<double>(glm::uintBitsToFloat(c.z)),
+                                   static_cast<double>(glm::uintBitsToFloat(c.w))});
                 }
             };
         });
@@ -250,6 +252,38 @@ TEST_F(VplChoice, ChainsOfOneStepAreUniformSampling) {
     for (size_t i = 0; i < chains.size(); ++i) {
         EXPECT_EQ(chains[i].texel, uniform[i].texel);
         EXPECT_NEAR(chains[i].texels, uniform[i].texels, 1e-5 * uniform[i].texels);
+    }
+}
+
+// The size of a light is a function of its texel, whatever its chain met: the near field, which knows no
+// chains, has the same. With inverse transform, and with chains of one step, it is what the light is worth.
+TEST_F(VplChoice, SizesFollowFromTheTexelAlone) {
+    const Problem problem;
+    double all = 0.0;
+    for (const float f : problem.importance) {
+        all += static_cast<double>(f);
+    }
+    constexpr int k_lights = 64;
+    for (const VplSampling sampling :
+         {VplSampling::uniform3, VplSampling::inverse2, VplSampling::inverse3, VplSampling::metropolis,
+          VplSampling::metropolis_single, VplSampling::metropolis_unreduced, VplSampling::resampled}) {
+        for (const int steps : {1, 5}) {
+            for (const Chosen& c : choose(problem, {sampling, k_lights, steps, 3})) {
+                if (!(c.texels > 0.0)) {
+                    continue;
+                }
+                const double even = 1.0 / (k_lights * problem.proposed(c.texel));
+                const double by_importance =
+                    all / (k_lights * static_cast<double>(problem.importance[c.texel]));
+                const double part = sampling == VplSampling::uniform3 ? 1.0
+                                    : passes::is_chain(sampling)      ? 1.0 / steps
+                                                                      : 0.0;
+                const double expected = part * even + (1.0 - part) * by_importance;
+                // Single precision over two hundred sums.
+                EXPECT_NEAR(c.standing, expected, 1e-4 * expected)
+                    << static_cast<int>(sampling) << ", " << steps;
+            }
+        }
     }
 }
 
