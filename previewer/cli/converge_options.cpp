@@ -46,9 +46,10 @@ void ConvergeOptions::add_to(CLI::App& command) {
         ->check(positive())
         ->group(group);
     command
-        .add_option(
-            "--target-relmse", relmse,
-            "With --converge: enough is an estimated relMSE of this; with --time-limit whichever comes first")
+        .add_option("--target-relmse", relmse,
+                    "With --converge: enough is an estimated relMSE of this; with --time-limit whichever "
+                    "comes first. "
+                    "Alone it ends with a sentence where that would take more than an hour")
         ->check(positive())
         ->group(group);
     command
@@ -80,6 +81,9 @@ void ConvergeOptions::check(const Settings& settings) const {
         throw usage_error(
             "--vpl-sampling avg sends the same rays in every pass, which --converge would not make better; "
             "give another");
+    }
+    if (const std::string refusal = converge_refusal(settings); !refusal.empty()) {
+        throw usage_error("--converge: " + refusal);
     }
     if (settings.temporal_reuse) {
         throw usage_error(

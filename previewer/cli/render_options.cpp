@@ -119,10 +119,10 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
                  "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
                  "unhidden, as in the 2013 paper",
                  name_of(d.vpl_importance));
-    group.number(
-        "--importance-pixels", o.importance_pixels,
-        "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; 16,384 at most",
-        fmt::format("{:g}", d.importance_pixels));
+    group.number("--importance-pixels", o.importance_pixels,
+                 "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; at least 64 "
+                 "of them and at most 16,384",
+                 fmt::format("{:g}", d.importance_pixels));
     group.number("--importance-floor", o.importance_floor,
                  "What a light counts for at least there, of what it would show on white across the whole "
                  "scene, 0 to 1; with 0 what no pixel of these shows is never drawn, as in the paper",

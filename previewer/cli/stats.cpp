@@ -41,6 +41,8 @@ const char* end_name(ConvergeEnd end) {
             return "time";
         case ConvergeEnd::passes:
             return "passes";
+        case ConvergeEnd::out_of_reach:
+            return "target out of reach";
         case ConvergeEnd::stopped:
             return "interrupted";
     }

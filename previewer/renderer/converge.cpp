@@ -10,6 +10,7 @@
 
 #include "core/stopwatch.h"
 #include "passes/pixel_filter.h"
+#include "renderer/setting_names.h"
 #include "scene/points/sobol.h"
 
 namespace bounce {
@@ -25,6 +26,9 @@ constexpr double k_look_growth = 1.1;
 // Pixels that a pass's smoothing of shadows covers shrink as passes cover more themselves; beyond this it
 // makes no difference.
 constexpr int k_most_samples = 64;
+
+// Before that the error says little about how it will fall.
+constexpr int k_settled_passes = 16;
 
 // Passes from which maps are larger.
 constexpr int k_first_growth = 4;
@@ -119,6 +123,30 @@ Settings converge_settings(const Settings& asked, int number, int most_texels) {
     return out;
 }
 
+double least_wait_s(double relmse, double target, double seconds) {
+    return seconds * std::max(relmse / target - 1.0, 0.0);
+}
+
+std::string converge_refusal(const Settings& settings) {
+    if (settings.technique != Technique::ism) {
+        return {};
+    }
+    // The world's lights may be drawn by it as well, in later passes even where it is not asked for.
+    if (settings.vpl_sampling == VplSampling::metropolis ||
+        settings.vpl_sampling == VplSampling::metropolis_unreduced) {
+        return fmt::format(
+            "--vpl-sampling {} is biased at any length of its chains, and passes would converge to a wrong "
+            "picture; give resampled or metropolis-single",
+            name_of(settings.vpl_sampling));
+    }
+    if (settings.vpl_importance == Importance::view && settings.importance_floor == 0.0F) {
+        return "with --importance-floor 0 lights that none of the looked-at pixels shows are never drawn, "
+               "and "
+               "passes would converge to a picture without them; give one above 0";
+    }
+    return {};
+}
+
 Converged converge(Renderer& renderer, const Moment& now, const Settings& settings,
                    const ConvergeTarget& target, gl::TimingMode timing, const std::function<bool()>& stop) {
     assert(settings.samples == 1);
@@ -167,6 +195,12 @@ Converged converge(Renderer& renderer, const Moment& now, const Settings& settin
             out.end = ConvergeEnd::relmse;
             return out;
         }
+        // A picture that is not finite has no error, and never will have one.
+        if (!last && target.seconds <= 0.0 && target.passes == 0 && number >= k_settled_passes &&
+            !(least_wait_s(out.state.relmse, target.relmse, out.state.seconds) <= k_longest_wait_s)) {
+            out.end = ConvergeEnd::out_of_reach;
+            return out;
+        }
         if (last) {
             out.end = stopped ? ConvergeEnd::stopped : late ? ConvergeEnd::seconds : ConvergeEnd::passes;
             return out;
@@ -186,6 +220,12 @@ std::string describe(const Converged& converged, const ConvergeTarget& target) {
         state.relmse, state.relmse_low, state.relmse_high);
     if (target.relmse > 0.0 && converged.end != ConvergeEnd::relmse) {
         out += fmt::format("; the target of {:.2e} was not reached", target.relmse);
+        if (converged.end == ConvergeEnd::out_of_reach) {
+            const double wait = least_wait_s(state.relmse, target.relmse, state.seconds);
+            out += std::isfinite(wait)
+                       ? fmt::format(" and would take {:.0f} more hours at least", std::ceil(wait / 3600.0))
+                       : " and cannot be: the error is not a number";
+        }
     }
     return out;
 }

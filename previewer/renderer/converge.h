@@ -34,7 +34,17 @@ struct ConvergeState {
     double relmse_high = -1.0;
 };
 
-enum class ConvergeEnd { relmse, seconds, passes, stopped };
+// out_of_reach: an estimated error was the only target, and reaching it would take longer than
+// k_longest_wait_s even if the error fell as fast as noise does.
+enum class ConvergeEnd { relmse, seconds, passes, stopped, out_of_reach };
+constexpr double k_longest_wait_s = 3600.0;
+
+// Seconds until an error of `target` where `relmse` took `seconds`, if it falls as one over the passes: the
+// least that it may take. NaN where the error is.
+[[nodiscard]] double least_wait_s(double relmse, double target, double seconds);
+
+// Why passes of these settings would not converge to what they are to show; empty where they would.
+[[nodiscard]] std::string converge_refusal(const Settings& settings);
 
 struct Converged {
     ConvergeState state;

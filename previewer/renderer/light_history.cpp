@@ -112,9 +112,11 @@ std::string settings_changed(const Settings& before, const Settings& now) {
     const auto key = [](const Settings& s) {
         return std::tuple(s.technique, s.show, s.bounces, s.world_vpls > 0, s.world_sampling,
                           s.emitter_vpls > 0, s.emitter_panels, s.bounce_places, s.shading, s.visibility,
-                          s.splat, s.bounce_source, s.vpl_sampling, s.vpl_importance, s.ism_size,
-                          s.large_triangles, s.drop_hull, s.pull_push, s.interleave, s.near_field,
-                          s.glossy_bounces, s.transparent_layers > 0);
+                          s.splat, s.bounce_source, s.vpl_sampling, s.vpl_importance, s.importance_pixels,
+                          s.importance_floor, s.vpl_steps, s.avg_size, s.avg_hits, s.avg_paths,
+                          s.map_projection, s.simplify.ratio, s.simplify.error, s.ism_points,
+                          s.used_rsm_size(), s.ism_size, s.large_triangles, s.drop_hull, s.pull_push,
+                          s.interleave, s.near_field, s.glossy_bounces, s.transparent_layers > 0);
     };
     return key(before) == key(now) ? "" : "the settings changed";
 }

@@ -96,6 +96,8 @@ passes::IsmInputs ism_inputs(const PipelineInputs& in, const passes::ScenePoints
 // Every texel of every map looks at each of the pixels that importance is judged by; llvmpipe ends a loop
 // after 65,535 iterations.
 constexpr double k_most_viewed_pixels = 16384.0;
+// In a small picture a thousandth of the pixels would say nothing of the others.
+constexpr double k_least_viewed_pixels = 64.0;
 
 // How lights are drawn from maps and from the sphere. gbuffer: where they are gathered.
 passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer, uint32_t seed) {
@@ -110,7 +112,7 @@ passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer
         out.view = {.gbuffer = gbuffer,
                     .pixels = static_cast<int>(
                         std::clamp(std::ceil(0.01 * static_cast<double>(settings.importance_pixels) * pixels),
-                                   1.0, k_most_viewed_pixels)),
+                                   k_least_viewed_pixels, k_most_viewed_pixels)),
                     .floor = settings.importance_floor,
                     .seed = seed};
     }
@@ -703,7 +705,10 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
     if (in.settings.show == Show::vpls && !lit.sets.empty()) {
         add_all_dots(graph, in, gbuffer, lit, picture);
     }
-    if (in.reflected_flux != nullptr && lit.importance.row_count > 0) {
+    // Importance by the view is none where nothing is seen of a light, which is not to say that there is
+    // none.
+    if (in.reflected_flux != nullptr && lit.importance.row_count > 0 &&
+        in.settings.vpl_importance == Importance::flux) {
         read_reflected_flux(graph, lit.importance, in.reflected_flux);
     }
 }

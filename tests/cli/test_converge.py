@@ -53,6 +53,10 @@ def test_targets(render, scene, tmp_path):
                   "--stats", "s.json")
     assert hard.returncode == 0 and "target of 1.00e-12 was not reached" in hard.stderr
     assert json.loads((tmp_path / "s.json").read_text())["frames"][0]["converged"]["ended_by"] == "time"
+    # Nor does it take for ever without one.
+    alone = render(scene, "-o", "a.exr", "--frames", "12", "--converge", "--target-relmse", "1e-12", "--stats", "s.json")
+    assert alone.returncode == 0 and "was not reached and would take" in alone.stderr
+    assert json.loads((tmp_path / "s.json").read_text())["frames"][0]["converged"]["ended_by"] == "target out of reach"
 
 
 def test_an_interrupted_frame_is_written_as_far_as_it_came(binary, bounce, scene, tmp_path):

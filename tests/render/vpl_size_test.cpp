@@ -39,5 +39,25 @@ TEST(VplSize, TheNearFieldPutsBackWhatChosenLightsLeaveOut) {
     }
 }
 
+// A surface in a few pixels of the picture is looked at as often as one that fills it.
+TEST(VplImportance, LooksAtWhatIsSeenHoweverSmall) {
+    require_context();
+    scene::Scene scene = corner_scene();
+    add_light(scene, light_of(scene::LightType::spot), rotated(25.0, {0.0, 1.0, 0.0}, {0.5, 0.2, 3.0}));
+    Settings settings = bounced(64);
+    settings.vpls = 64;
+    settings.visibility = Visibility::none;
+    CameraView far = floor_camera();
+    far.world_from_camera[3] += 40.0 * far.world_from_camera[2];
+    far.camera.far_m = 1000.0F;
+    const double expected = draw(scene, far, settings).mean();
+    ASSERT_GT(expected, 0.0);
+    settings.vpl_importance = Importance::view;
+    settings.importance_floor = 0.0F;
+    settings.vpl_sampling = VplSampling::inverse3;
+    // A third: a few pixels, each lit by a few lights, bounded otherwise as they lie elsewhere.
+    EXPECT_NEAR(draw(scene, far, settings).mean() / expected, 1.0, 0.33);
+}
+
 }  // namespace
 }  // namespace bounce::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/converge.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "passes/pixel_filter.h"
@@ -95,6 +97,35 @@ TEST(Converge, MapsGrowWithinLimits) {
     EXPECT_EQ(converge_settings(asked, 100, most).used_rsm_size(), 2048);
     asked.antialias = false;
     EXPECT_FALSE(converge_settings(asked, 1, most).antialias);
+}
+
+TEST(Converge, RefusesLightsThatDoNotConverge) {
+    EXPECT_EQ(converge_refusal({}), "");
+    for (const VplSampling biased : {VplSampling::metropolis, VplSampling::metropolis_unreduced}) {
+        EXPECT_NE(converge_refusal({.vpl_sampling = biased}).find("resampled"), std::string::npos);
+        EXPECT_EQ(converge_refusal({.technique = Technique::direct, .vpl_sampling = biased}), "");
+    }
+    for (const VplSampling right : {VplSampling::inverse3, VplSampling::uniform3, VplSampling::resampled,
+                                    VplSampling::metropolis_single}) {
+        EXPECT_EQ(converge_refusal({.vpl_sampling = right}), "");
+    }
+    Settings seen{.vpl_importance = Importance::view};
+    EXPECT_EQ(converge_refusal(seen), "");
+    seen.importance_floor = 0.0F;
+    EXPECT_NE(converge_refusal(seen).find("--importance-floor"), std::string::npos);
+}
+
+TEST(Converge, KnowsWhatIsOutOfReach) {
+    // A thousandth of the error takes a thousand times the passes.
+    EXPECT_DOUBLE_EQ(least_wait_s(1e-2, 1e-5, 2.0), 2.0 * 999.0);
+    EXPECT_EQ(least_wait_s(1e-3, 1e-2, 2.0), 0.0);
+    Converged converged;
+    converged.state = {16, 2.0, 1e-2, 5e-3, 2e-2};
+    converged.end = ConvergeEnd::out_of_reach;
+    const std::string far = describe(converged, {.relmse = 1e-9});
+    EXPECT_NE(far.find("was not reached and would take 5556 more hours at least"), std::string::npos) << far;
+    converged.state.relmse = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(describe(converged, {.relmse = 1e-9}).find("not a number"), std::string::npos);
 }
 
 TEST(Converge, SaysWhatWasReached) {
