@@ -45,17 +45,18 @@ TEST(VplImportance, LooksAtWhatIsSeenHoweverSmall) {
     scene::Scene scene = corner_scene();
     add_light(scene, light_of(scene::LightType::spot), rotated(25.0, {0.0, 1.0, 0.0}, {0.5, 0.2, 3.0}));
     Settings settings = bounced(64);
-    settings.vpls = 64;
+    settings.vpls = 256;
+    settings.interleave = 1;
     settings.visibility = Visibility::none;
     CameraView far = floor_camera();
-    far.camera.yfov_rad = 1.2F;  // four pixels of the 64 across
-
+    far.camera.xmag *= 16.0F;  // four pixels of the 64 across
+    far.camera.ymag *= 16.0F;
     const double expected = draw(scene, far, settings).mean();
     ASSERT_GT(expected, 0.0);
     settings.vpl_importance = Importance::view;
     settings.importance_floor = 0.0F;
     settings.vpl_sampling = VplSampling::inverse3;
-    // A third: a few pixels, each lit by a few lights, bounded otherwise as they lie elsewhere.
+    // A third: a few pixels, and lights that are bounded otherwise as they lie elsewhere.
     EXPECT_NEAR(draw(scene, far, settings).mean() / expected, 1.0, 0.33);
 }
 
