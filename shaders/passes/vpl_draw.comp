@@ -294,10 +294,19 @@ void main() {
         picked = sum <= wanted && fluxes[i] > 0.0 ? i : picked;
         sum += fluxes[i];
     }
+#ifdef IMPORTANCE_MAP
+    // Children of other importance than their flux: those that count for little stand for much. Picked by flux these would
+    // be the light nearly always, and what is seen of the cell a rare and bright one; so all are as likely.
+    picked = clamp(int(wanted / max(flux, 1e-30) * float(CHILDREN)), 0, CHILDREN - 1);
+#endif
     PixelLight chosen = children[picked];
 #if defined(SEEDED) && !defined(MIDDLE)
     // Picked in proportion to flux, it stands for all of it.
+#ifdef IMPORTANCE_MAP
+    float standing = measures[picked] * float(CHILDREN);
+#else
     float standing = fluxes[picked] > 0.0 ? measures[picked] * (flux / fluxes[picked]) : 0.0;
+#endif
     if (!(standing > 0.0)) {
         drawn[index] = dark_vpl();
         return;
@@ -324,6 +333,7 @@ void main() {
     float area = 0.0;
     float measure = 0.0;
     float member_flux = 0.0;
+    int members = 0;
     bool member[CHILDREN];
     for (int i = 0; i < CHILDREN; ++i) {
         vec3 d = children[i].position - chosen.position;
@@ -339,6 +349,7 @@ void main() {
             area += surface_area(children[i], measures[i]);
             measure += measures[i];
             member_flux += fluxes[i];
+            ++members;
         }
     }
     if (!(member_flux > 0.0)) {
@@ -357,7 +368,11 @@ void main() {
         }
     }
     // Members stand for the others as well.
+#ifdef IMPORTANCE_MAP
+    float all = float(CHILDREN) / float(max(members, 1));
+#else
     float all = flux / member_flux;
+#endif
     float sent = dot(reflected, vec3(1.0));
     middle.color = reflected / max(arriving, vec3(1e-30));
     middle.arriving = arriving / measure;
