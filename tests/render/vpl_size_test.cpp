@@ -20,8 +20,9 @@ TEST(VplSize, TheNearFieldPutsBackWhatChosenLightsLeaveOut) {
     full.rsm_full_sum = true;
     full.rsm_size = 512;
     const double reference = draw(scene, floor_camera(), full).mean();
-    for (const VplSampling sampling : {VplSampling::uniform3, VplSampling::inverse3, VplSampling::metropolis,
-                                       VplSampling::metropolis_single, VplSampling::resampled}) {
+    for (const VplSampling sampling :
+         {VplSampling::inverse_transform, VplSampling::uniform3, VplSampling::inverse3,
+          VplSampling::metropolis, VplSampling::metropolis_single, VplSampling::resampled}) {
         Settings settings = bounced(48);
         settings.rsm_size = 512;
         settings.visibility = Visibility::none;
