@@ -57,7 +57,7 @@ TEST(VplImportance, CellsConvergeToWhatSingleTexelsDo) {
         Renderer renderer(scene);
         const CameraView camera = floor_camera();
         const Image picture = converge(renderer, {scene::evaluate_pose(scene, 0.0), camera}, settings,
-                                       {.passes = 32}, gl::TimingMode::off, {})
+                                       {.passes = 8}, gl::TimingMode::off, {})
                                   .picture;
         double sum = 0.0;
         for (const float value : picture.rgb) {
@@ -65,8 +65,8 @@ TEST(VplImportance, CellsConvergeToWhatSingleTexelsDo) {
         }
         return sum;
     };
-    // 4 %: noise of 32 passes of 64 lights.
-    EXPECT_NEAR(mean(VplSampling::inverse_transform) / mean(VplSampling::inverse3), 1.0, 0.04);
+    // 8 %: noise of 8 passes of 64 lights.
+    EXPECT_NEAR(mean(VplSampling::inverse_transform) / mean(VplSampling::inverse3), 1.0, 0.08);
 }
 
 // A surface in a few pixels of the picture is looked at as often as one that fills it.
