@@ -237,14 +237,11 @@ void Renderer::place_emitters(const scene::Pose& pose, std::span<const scene::Em
 
 passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
     const glm::vec3 radiance = environment_ ? glm::vec3(0.0F) : world.color * world.strength;
-    SphereCells even;
-    if (!environment_) {
-        even = even_cells(radiance);
-    }
-    const SphereCells& cells = environment_ ? environment_->cells() : even;
     if (!sphere_cells_ || radiance != sphere_radiance_) {
+        const SphereCells& cells = environment_ ? environment_->cells() : even_cells(radiance);
         sphere_cells_ = gl::Buffer::of("sphere cells", std::span<const glm::vec4>(cells.light));
         sphere_radiance_ = radiance;
+        sphere_grid_ = {cells.width, cells.height};
     }
     gpu::SphereUniforms uniforms{};
     if (environment_) {
@@ -253,10 +250,10 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         for (int row = 0; row < 3; ++row) {
             uniforms.render_from_environment[row][row] = 1.0F;
         }
-        uniforms.grid = {cells.width, cells.height, 0, 0};
+        uniforms.grid = {sphere_grid_, 0, 0};
         uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
     }
-    return {&sphere_cells_, uniforms_.add(uniforms), cells.width, cells.height,
+    return {&sphere_cells_, uniforms_.add(uniforms), sphere_grid_.x, sphere_grid_.y,
             environment_ && environment_->has_suns()};
 }
 

@@ -188,6 +188,7 @@ class Renderer {
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
     gl::Buffer sphere_cells_;
+    glm::ivec2 sphere_grid_{0};         // cells across and down
     glm::vec3 sphere_radiance_{-1.0F};  // that the cells were made of; of an image: 0
     scene::Bounds first_bounds_;        // where the animation begins
     gl::Buffer avg_rays_;
