@@ -213,6 +213,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     Renderer renderer(scene);
     glFinish();
     start.upload_ms = uploading.ms();
+    renderer.expect_frames(frames.size() > 1);
     const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
     Progress progress("render", static_cast<int>(frames.size()));
@@ -240,7 +241,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         FrameStats measured =
             measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
                           frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
-        renderer.keep_history();
+        renderer.keep_frame();
         frame_before = frame;
         measured.frame = frame;
         measured.time_s = time_s;

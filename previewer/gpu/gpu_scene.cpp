@@ -134,6 +134,10 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
         materials_ = gl::Buffer("materials", packed.size() * sizeof(GpuMaterial), GL_DYNAMIC_STORAGE_BIT);
     }
     materials_.update(std::span<const GpuMaterial>(packed));
+    material_contents_.clear();
+    for (const GpuMaterial& material : packed) {
+        material_contents_.push_back(ContentHash().add(material).key());
+    }
     current_materials_ = materials;
 }
 
@@ -159,6 +163,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         DrawBox box;
         DrawSource source;
         double scale = 1.0;
+        ContentKey deformed;
     };
     std::vector<Item> items;
     std::vector<int> copies(scene_.nodes.size(), 0);
@@ -203,6 +208,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
             item.box = gpu::draw_box(world, space_);
             item.source = {static_cast<int>(i), static_cast<int>(p)};
+            item.deformed = vertices_.content(instance.node);
             items.push_back(item);
             has_blended_ |= item.batch.features.blend;
             has_emission_ |= item.batch.features.emission;
@@ -224,6 +230,8 @@ void GpuScene::build_batches(const scene::Pose& pose) {
     draw_sources_.clear();
     draw_data_.clear();
     draw_scales_.clear();
+    draw_contents_.clear();
+    ContentHash all;
     for (size_t i = 0; i < items.size(); ++i) {
         if (i == 0 || key(items[i]) != key(items[i - 1])) {
             batches_.push_back(items[i].batch);
@@ -232,10 +240,29 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         ++batches_.back().draw_count;
         draw_data_.push_back(items[i].draw);
         draw_scales_.push_back(items[i].scale);
+        const DrawBatch& batch = items[i].batch;
+        draw_contents_.push_back(ContentHash()
+                                     .add(items[i].draw)
+                                     .add(batch.first_index)
+                                     .add(batch.index_count)
+                                     .add(batch.base_vertex)
+                                     .add(items[i].deformed)
+                                     .key());
+        all.add(draw_contents_.back());
         draw_boxes_.push_back(items[i].box);
         draw_sources_.push_back(items[i].source);
     }
+    all.add_all(std::span<const ContentKey>(material_contents_));
+    content_ = all.key();
     upload_draws();
+}
+
+ContentKey GpuScene::draw_content(uint32_t draw, Geometry geometry) const {
+    if (geometry == Geometry::whole || !simplified_by_) {
+        return draw_contents_[draw];
+    }
+    // How far its surfaces moved is in its data since it is simplified.
+    return ContentHash().add(draw_contents_[draw]).add(draw_data_[draw].ids).add(simplified_count_).key();
 }
 
 void GpuScene::upload_draws() {
@@ -262,6 +289,7 @@ void GpuScene::simplify(const scene::Simplification& settings) {
         simplified_ = scene::simplify_scene(scene_, settings);
         vertices_.set_simplified(simplified_);
         simplified_by_ = settings;
+        ++simplified_count_;
     }
     simplified_triangles_ = 0;
     simplified_error_m_ = 0.0;
