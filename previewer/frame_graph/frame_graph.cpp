@@ -312,6 +312,46 @@ class FrameGraph::ReleaseAtEnd {
     FrameGraph& graph_;
 };
 
+FrameGraph::Forecast FrameGraph::forecast(bool keeps) {
+    const std::vector<bool> live = dependencies_.live_passes();
+    find_contents(live);
+    find_lifetimes(live);
+    Forecast out;
+    std::vector<gl::TextureDesc> idle_textures;
+    std::vector<size_t> idle_buffers;
+    // Of an equal one that is idle nothing is allocated.
+    const auto acquire_from = [&](auto& idle, const auto& what, size_t bytes) {
+        const auto found = std::find(idle.begin(), idle.end(), what);
+        if (found == idle.end()) {
+            out.peak_bytes += bytes;
+        } else {
+            idle.erase(found);
+        }
+    };
+    for (size_t pass = 0; pass < passes_.size(); ++pass) {
+        (live[pass] ? out.passes : out.culled).push_back(passes_[pass].name);
+        for (const Resource& resource : resources_) {
+            if (resource.imported != nullptr || resource.imported_buffer != nullptr) {
+                continue;
+            }
+            const bool first = resource.first_use == static_cast<int>(pass);
+            if (first && resource.is_texture) {
+                acquire_from(idle_textures, resource.desc, gl::storage_bytes(resource.desc));
+            } else if (first) {
+                acquire_from(idle_buffers, resource.bytes, resource.bytes);
+            }
+        }
+        for (const Resource& resource : resources_) {
+            const bool stays = resource.kept != nullptr || (keeps && resource.key.known());
+            if (resource.last_use == static_cast<int>(pass) && !stays) {
+                resource.is_texture ? idle_textures.push_back(resource.desc)
+                                    : idle_buffers.push_back(resource.bytes);
+            }
+        }
+    }
+    return out;
+}
+
 void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept) {
     kept_ = kept != nullptr && kept->on() ? kept : nullptr;
     const ReleaseAtEnd release_at_end(*this);

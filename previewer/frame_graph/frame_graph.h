@@ -103,6 +103,13 @@ class FrameGraph {
     // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept: what
     // earlier frames made, and where this one's goes; null: every live pass runs.
     void execute(gl::PassTimer& timer, KeptContents* kept = nullptr);
+    // What execute() would do where every condition held, without doing it: the names of the passes that would
+    // run, and how much is allocated at once, bytes, in an empty pool. kept: as there; all that is worth keeping is.
+    struct Forecast {
+        std::vector<std::string> passes, culled;
+        size_t peak_bytes = 0;
+    };
+    [[nodiscard]] Forecast forecast(bool keeps);
     // Conditions of passes count as held: everything that may run does.
     void ignore_conditions() { ignore_conditions_ = true; }
 

@@ -2,6 +2,7 @@
 #include "gpu/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <numeric>
@@ -63,6 +64,13 @@ DrawFeatures features_of(const scene::Scene& scene, const MaterialTextures& text
     features.alpha_test = material.alpha_mode == scene::AlphaMode::mask || coverage.blended;
     features.vertex_color = !primitive.colors.empty();
     return features;
+}
+
+// All that leaves the surface's look the same to the bit; a flat normal map would round.
+void force(DrawFeatures& features, const scene::Material& material) {
+    features.base_color_texture = features.metallic_roughness_texture = true;
+    features.emission = features.emission_texture = features.vertex_color = true;
+    features.alpha_test |= !features.blend && material.base_color.a >= 1.0F;
 }
 
 // Rows of the affine matrix, and of the cofactor matrix of its linear part, which turns normals right
@@ -142,6 +150,11 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
 }
 
 void GpuScene::set_pose(const scene::Pose& pose) {
+    if (forced_ && !white_) {
+        white_ = gl::Texture("white", {.format = GL_RGBA8, .width = 1, .height = 1});
+        const std::array<GLubyte, 4> white = {255, 255, 255, 255};
+        glTextureSubImage2D(white_.id(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, white.data());
+    }
     bounds_ = scene::world_bounds(scene_, pose);
     upload_materials(pose.materials);
     vertices_.set_pose(pose, space_);
@@ -193,6 +206,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                                              : vertices_.range(instance.mesh, static_cast<int>(p));
             Item item;
             item.batch.features = features_of(scene_, textures_, material, primitive);
+            if (forced_) force(item.batch.features, material);
             item.batch.cull_back_faces = !material.double_sided && !scene_.from_blender;
             item.batch.mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
             item.batch.material = material_index;
@@ -312,9 +326,18 @@ void GpuScene::bind() const {
     vertices_.bind_vertex_array();
     draws_.bind_storage(SSBO_DRAWS);
     materials_.bind_storage(SSBO_MATERIALS);
+    if (forced_) {
+        glVertexAttrib4f(ATTRIB_COLOR, 1.0F, 1.0F, 1.0F, 1.0F);  // where no stream has any
+    }
 }
 
 void GpuScene::bind_material(const DrawBatch& batch) const {
+    if (forced_) {
+        for (const GLuint unit : {TEX_BASE_COLOR, TEX_METALLIC_ROUGHNESS, TEX_EMISSION}) {
+            white_.bind(unit);
+            glBindSampler(unit, 0);
+        }
+    }
     if (batch.material >= static_cast<int>(scene_.materials.size())) {
         return;
     }

@@ -293,6 +293,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
+    settings.drop_hull = settings.drop_hull && settings.forced != Forced::all;
     IsmLayout first = ism_layout(settings, 1, 0);
     IsmLayout irsm = first;
     irsm.map_size = k_irsm_size;
@@ -563,6 +564,18 @@ FrameReport Renderer::render_whole(const scene::Pose& pose, const CameraView& vi
     return render_lit(pose, view, settings, timing, before, pose.light_instances.size(), one_of_many);
 }
 
+FrameReport Renderer::plan(const scene::Pose& pose, const CameraView& view, const Settings& settings) {
+    plans_only_ = true;
+    try {
+        FrameReport report = render_whole(pose, view, settings, gl::TimingMode::off, nullptr, nullptr);
+        plans_only_ = false;
+        return report;
+    } catch (...) {
+        plans_only_ = false;
+        throw;
+    }
+}
+
 FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraView& view,
                                          const Settings& settings, gl::TimingMode timing, uint32_t number,
                                          float extent) {
@@ -627,6 +640,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         previous_->draw(gpu_scene_, programs_, pool_, uniforms_, previous, settings, timer, report.executed);
     }
+    gpu_scene_.force_features(settings.forced != Forced::nothing);
     gpu_scene_.set_pose(of_scene);
     const std::optional<scene::PanelPose> with_panels = light_panels(of_scene, settings);
     const scene::Pose& pose = with_panels ? with_panels->pose : of_scene;
@@ -807,7 +821,11 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.removed.emplace();
     }
 
-    if (plan.deform && !gpu_scene_.vertices().deform_due()) {
+    if (plans_only_) {
+        if (plan.deform) {
+            report.executed.emplace_back("deform");
+        }
+    } else if (plan.deform && !gpu_scene_.vertices().deform_due() && settings.forced == Forced::nothing) {
         report.left_out.push_back({"deform", "joints and morph weights are as in the frame before"});
     } else if (plan.deform) {
         timer.begin("deform");
@@ -859,7 +877,21 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
                 .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
                 .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
-    graph.execute(timer, one_of_many == nullptr ? &contents_ : nullptr);
+    const bool keeps = one_of_many == nullptr && settings.forced == Forced::nothing;
+    if (plans_only_) {
+        const FrameGraph::Forecast forecast = graph.forecast(keeps && contents_.on());
+        report.executed.insert(report.executed.end(), forecast.passes.begin(), forecast.passes.end());
+        for (const std::string& pass : forecast.culled) {
+            report.left_out.push_back({pass, "nothing reads what it makes"});
+        }
+        report.memory = {.lasting = gl::allocated_bytes() - pool_.bytes() - contents_.bytes(),
+                         .passes = forecast.peak_bytes};
+        return report;
+    }
+    if (settings.forced != Forced::nothing) {
+        graph.ignore_conditions();
+    }
+    graph.execute(timer, keeps ? &contents_ : nullptr);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});

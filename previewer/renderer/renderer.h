@@ -65,6 +65,13 @@ struct FrameReport {
         std::string reason;
     };
     std::optional<Reuse> reuse;
+    // Textures and buffers, bytes: of the scene and what outlives frames, and what this frame's passes have at once.
+    struct Memory {
+        size_t lasting = 0;
+        size_t passes = 0;
+        [[nodiscard]] size_t peak() const { return lasting + passes; }
+    };
+    std::optional<Memory> memory;      // of Renderer::plan()
     std::optional<SplatChoice> splat;  // where Splat::automatic was asked for and maps are drawn
 };
 
@@ -94,9 +101,14 @@ class Renderer {
     // them: red, green, blue and error, top row first.
     [[nodiscard]] std::vector<glm::vec4> resolve_many();
 
+    // What render() would do, without drawing: executed and left_out are those of a frame for which nothing was
+    // kept, and the memory is what it would allocate. Points and buffers of the scene are made. Throws the same.
+    FrameReport plan(const scene::Pose& pose, const CameraView& camera, const Settings& settings);
+
     // Whether more frames of this scene are to come: what passes made and what is still the same in the frame
     // after keep_frame() is then not made again. A picture is the same either way, to the bit.
     void expect_frames(bool more) { contents_.set_on(more, pool_); }
+    [[nodiscard]] bool expects_frames() const { return contents_.on(); }
     // The frame that was drawn last is the frame before the next one, for all that goes on from frame to frame.
     // A frame may be drawn several times before: each starts from the same.
     // With Settings::temporal_reuse each frame takes light of the one that was drawn last before
@@ -187,6 +199,7 @@ class Renderer {
     gl::ProgramCache programs_;
     TransientPool pool_;
     KeptContents contents_;
+    bool plans_only_ = false;  // nothing is drawn
     gpu::UniformArena uniforms_;
     std::unique_ptr<PreviousFrameSource> previous_;  // made when motion is first asked for
     std::unique_ptr<LightHistory> history_;          // made when light is first reused, gone when it is not
