@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What leaving out saves: the same frames with everything done that the scene does not need, with each frame drawn
-// afresh, and as the plan has them, in turn.
+// What leaving out saves: the same frames with everything done that the scene does not need, with each frame
+// drawn afresh, and as the plan has them, in turn.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +25,8 @@ constexpr int k_width = 480;
 constexpr int k_height = 270;
 constexpr double k_mebibyte = 1024.0 * 1024.0;
 
-// Most that forcing what is left out by an estimate may change a picture: the sampling error of bounced light, which
-// other points in the shadow maps draw anew.
+// Most that forcing what is left out by an estimate may change a picture: the sampling error of bounced
+// light, which other points in the shadow maps draw anew.
 constexpr double k_estimate_bound = 0.01;
 
 struct Mode {
@@ -66,7 +66,8 @@ double largest_difference(const Image& a, const Image& b) {
     return worst;
 }
 
-std::array<Runner, 4> run(const BenchInputs& inputs, const Settings& settings, const Motion& motion, int frames) {
+std::array<Runner, 4> run(const BenchInputs& inputs, const Settings& settings, const Motion& motion,
+                          int frames) {
     std::array<Runner, 4> out;
     for (size_t m = 0; m < k_modes.size(); ++m) {
         out[m].renderer = std::make_unique<Renderer>(inputs.scene);
@@ -97,7 +98,8 @@ std::array<Runner, 4> run(const BenchInputs& inputs, const Settings& settings, c
 }
 
 // Of a renderer by itself, textures and buffers, MiB.
-double peak_mebibytes(const BenchInputs& inputs, const Settings& settings, const Motion& motion, const Mode& mode) {
+double peak_mebibytes(const BenchInputs& inputs, const Settings& settings, const Motion& motion,
+                      const Mode& mode) {
     const size_t before = gl::allocated_bytes();
     Renderer renderer(inputs.scene);
     renderer.expect_frames(mode.keeps);
@@ -159,21 +161,22 @@ void measure_leaving_out(const BenchInputs& inputs, BenchReport& report) {
         }
     }
     motions.push_back(turntable(inputs, settings, k_turn_deg));
-    Table times{.title = "A frame, as the same frames are drawn in turn",
-                .note = fmt::format("Medians of {} frames after the first. Forcing what is exact changes nothing; "
-                                    "forcing the rest draws bounced light's shadows anew.",
-                                    frames - 1),
-                .columns = {{"what moves", ""},
-                            {"everything forced", "ms"},
-                            {"exact forced", "ms"},
-                            {"afresh", "ms"},
-                            {"the plan", "ms"},
-                            {"everything over plan", "times"},
-                            {"afresh over plan", "times"},
-                            {"worst difference, exact", ""},
-                            {"worst difference, afresh", ""},
-                            {"relMSE, everything", ""}},
-                .rows = {}};
+    Table times{
+        .title = "A frame, as the same frames are drawn in turn",
+        .note = fmt::format("Medians of {} frames after the first. Forcing what is exact changes nothing; "
+                            "forcing the rest draws bounced light's shadows anew.",
+                            frames - 1),
+        .columns = {{"what moves", ""},
+                    {"everything forced", "ms"},
+                    {"exact forced", "ms"},
+                    {"afresh", "ms"},
+                    {"the plan", "ms"},
+                    {"everything over plan", "times"},
+                    {"afresh over plan", "times"},
+                    {"worst difference, exact", ""},
+                    {"worst difference, afresh", ""},
+                    {"relMSE, everything", ""}},
+        .rows = {}};
     Table memory{.title = "Peak of GPU memory, textures and buffers",
                  .note = "",
                  .columns = {{"what moves", ""},
@@ -206,11 +209,12 @@ void measure_leaving_out(const BenchInputs& inputs, BenchReport& report) {
                                  .kind = Check::Kind::at_least,
                                  .limit = still_set ? 5.0 : 1.5,
                                  .unit = "times"});
-        report.checks.push_back({.what = motion.name + ": worst difference where exact things are forced or redone",
-                                 .value = std::max(runs[1].worst, runs[2].worst),
-                                 .kind = Check::Kind::at_most,
-                                 .limit = 0.0,
-                                 .unit = ""});
+        report.checks.push_back(
+            {.what = motion.name + ": worst difference where exact things are forced or redone",
+             .value = std::max(runs[1].worst, runs[2].worst),
+             .kind = Check::Kind::at_most,
+             .limit = 0.0,
+             .unit = ""});
         report.checks.push_back({.what = motion.name + ": relMSE of everything forced against the plan",
                                  .value = runs[0].relmse,
                                  .kind = Check::Kind::at_most,

@@ -104,10 +104,10 @@ Motion turntable(const BenchInputs& inputs, const Settings& settings, double ste
     const glm::dvec3 middle = scene::world_bounds(inputs.scene, still).center();
     return {"the camera, around a still set", false, [=](int frame) {
                 CameraView view = first;
-                const glm::dmat4 turn = glm::translate(glm::dmat4(1.0), middle) *
-                                        glm::rotate(glm::dmat4(1.0), glm::radians(step_deg * frame),
-                                                    glm::dvec3(0.0, 1.0, 0.0)) *
-                                        glm::translate(glm::dmat4(1.0), -middle);
+                const glm::dmat4 turn =
+                    glm::translate(glm::dmat4(1.0), middle) *
+                    glm::rotate(glm::dmat4(1.0), glm::radians(step_deg * frame), glm::dvec3(0.0, 1.0, 0.0)) *
+                    glm::translate(glm::dmat4(1.0), -middle);
                 view.world_from_camera = turn * first.world_from_camera;
                 return Shot{still, view};
             }};

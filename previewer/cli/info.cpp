@@ -366,8 +366,9 @@ void add_info(CLI::App& app, Run& run) {
     command->add_option("SCENE", arguments->scene, "The scene: .glb, .gltf or .blend")->required();
     add_scene_source_options(*command, arguments->source);
     command->add_flag("--json", arguments->json, "Print JSON (schema bounce.info/1)");
-    command->add_flag("--plan", arguments->plan,
-                      "Also the passes of the first frame, what is left out and why, and the GPU memory it takes");
+    command->add_flag(
+        "--plan", arguments->plan,
+        "Also the passes of the first frame, what is left out and why, and the GPU memory it takes");
     arguments->own_options = command->get_options().size();
     arguments->render.add_to(*command);
     command->callback([&run, command, arguments] {

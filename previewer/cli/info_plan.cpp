@@ -62,8 +62,9 @@ void print_plan(const InfoPlan& plan) {
     for (const LeftOut& item : plan.report.left_out) {
         fmt::print("  {:<32} {}\n", item.pass, item.reason);
     }
-    fmt::print("GPU memory  {:.1f} MiB at most: {:.1f} of the scene and what lasts, {:.1f} of the frame's passes\n",
-               mebibytes(memory.peak()), mebibytes(memory.lasting), mebibytes(memory.passes));
+    fmt::print(
+        "GPU memory  {:.1f} MiB at most: {:.1f} of the scene and what lasts, {:.1f} of the frame's passes\n",
+        mebibytes(memory.peak()), mebibytes(memory.lasting), mebibytes(memory.passes));
 }
 
 }  // namespace bounce::cli

@@ -9,8 +9,8 @@
 
 namespace bounce::cli {
 
-// What a frame would do: passes in order, what is left out and why, and the GPU memory it takes. frame: Blender's
-// number. Opens OpenGL; draws nothing. Throws what rendering would.
+// What a frame would do: passes in order, what is left out and why, and the GPU memory it takes. frame:
+// Blender's number. Opens OpenGL; draws nothing. Throws what rendering would.
 struct InfoPlan {
     FrameReport report;
     Settings settings;

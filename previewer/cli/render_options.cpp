@@ -395,10 +395,11 @@ void RenderOptions::add_to(CLI::App& command) {
         .add_option("--tuning", tuning,
                     "Preset auto: the file tuning.json that bounce evaluate writes, for --budget-ms")
         ->group("Measured settings");
-    group.one_of("--force", force, setting_names<Forced>(),
-                 "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
-                 "picture the same to the bit; all, estimates as well",
-                 "nothing");
+    group.one_of(
+        "--force", force, setting_names<Forced>(),
+        "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
+        "picture the same to the bit; all, estimates as well",
+        "nothing");
     group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
     add_vpl_options(command, *this);
     add_ism_options(command, *this);
@@ -416,9 +417,10 @@ void RenderOptions::add_still_to(CLI::App& command) {
             k_most_samples),
         std::to_string(Settings{}.samples));
     command
-        .add_option("--memory-limit", memory_limit_mib,
-                    "GPU memory that frames may take, MiB: settings are lowered until they fit, and what was given "
-                    "up is said")
+        .add_option(
+            "--memory-limit", memory_limit_mib,
+            "GPU memory that frames may take, MiB: settings are lowered until they fit, and what was given "
+            "up is said")
         ->check(CLI::PositiveNumber)
         ->group(k_light_transport_group);
 }

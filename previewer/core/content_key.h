@@ -13,7 +13,8 @@
 
 namespace bounce {
 
-// Stands for contents: two that are equal are of the same bytes, but for a chance of 2^-128. All zeros: unknown.
+// Stands for contents: two that are equal are of the same bytes, but for a chance of 2^-128. All zeros:
+// unknown.
 struct ContentKey {
     uint64_t low = 0;
     uint64_t high = 0;
@@ -26,8 +27,7 @@ class ContentHash {
   public:
     // Types without padding: numbers, enums, and structs of them laid out for shaders.
     template <typename T>
-        requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>)
-    ContentHash& add(const T& value) {
+    requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) ContentHash& add(const T& value) {
         return add_bytes(std::as_bytes(std::span(&value, 1)));
     }
     template <typename T>

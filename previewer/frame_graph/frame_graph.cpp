@@ -312,18 +312,20 @@ class FrameGraph::ReleaseAtEnd {
     FrameGraph& graph_;
 };
 
-FrameGraph::Forecast FrameGraph::forecast(bool keeps) {
+FrameGraph::Forecast FrameGraph::forecast(bool keeps, bool holds) {
     const std::vector<bool> live = dependencies_.live_passes();
     find_contents(live);
     find_lifetimes(live);
     Forecast out;
     std::vector<gl::TextureDesc> idle_textures;
     std::vector<size_t> idle_buffers;
+    size_t allocated = 0;
     // Of an equal one that is idle nothing is allocated.
     const auto acquire_from = [&](auto& idle, const auto& what, size_t bytes) {
         const auto found = std::find(idle.begin(), idle.end(), what);
         if (found == idle.end()) {
-            out.peak_bytes += bytes;
+            allocated += bytes;
+            out.peak_bytes = std::max(out.peak_bytes, allocated);
         } else {
             idle.erase(found);
         }
@@ -343,7 +345,13 @@ FrameGraph::Forecast FrameGraph::forecast(bool keeps) {
         }
         for (const Resource& resource : resources_) {
             const bool stays = resource.kept != nullptr || (keeps && resource.key.known());
-            if (resource.last_use == static_cast<int>(pass) && !stays) {
+            if (resource.last_use != static_cast<int>(pass) || stays || resource.imported != nullptr ||
+                resource.imported_buffer != nullptr) {
+                continue;
+            }
+            if (!holds) {
+                allocated -= resource.is_texture ? gl::storage_bytes(resource.desc) : resource.bytes;
+            } else {
                 resource.is_texture ? idle_textures.push_back(resource.desc)
                                     : idle_buffers.push_back(resource.bytes);
             }

@@ -62,8 +62,8 @@ class PassBuilder {
     // The pass runs even where nothing reads its results.
     void side_effect();
     // All that decides on what the pass writes, but what it reads in the graph: where this and that are as in
-    // the frame before, what it wrote then serves again (FrameGraph::execute). Without it the pass runs in each
-    // frame that needs it.
+    // the frame before, what it wrote then serves again (FrameGraph::execute). Without it the pass runs in
+    // each frame that needs it.
     void decided_by(const ContentKey& key);
 
   private:
@@ -100,16 +100,17 @@ class FrameGraph {
     // null: they always run. What a pass that does not run would have written is undefined.
     void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
 
-    // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept: what
-    // earlier frames made, and where this one's goes; null: every live pass runs.
+    // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept:
+    // what earlier frames made, and where this one's goes; null: every live pass runs.
     void execute(gl::PassTimer& timer, KeptContents* kept = nullptr);
-    // What execute() would do where every condition held, without doing it: the names of the passes that would
-    // run, and how much is allocated at once, bytes, in an empty pool. kept: as there; all that is worth keeping is.
+    // What execute() would do where every condition held, without doing it: the names of the passes that
+    // would run, and how much is allocated at once, bytes, in an empty pool. keeps: all that is worth keeping
+    // is kept. holds: TransientPool::hold_idle().
     struct Forecast {
         std::vector<std::string> passes, culled;
         size_t peak_bytes = 0;
     };
-    [[nodiscard]] Forecast forecast(bool keeps);
+    [[nodiscard]] Forecast forecast(bool keeps, bool holds);
     // Conditions of passes count as held: everything that may run does.
     void ignore_conditions() { ignore_conditions_ = true; }
 
@@ -137,7 +138,7 @@ class FrameGraph {
         gl::Texture texture;
         gl::Texture* kept = nullptr;  // where the texture goes in the end
         gl::Buffer buffer;
-        ContentKey key;     // of its last version, with what it is; unknown where it cannot be kept
+        ContentKey key;            // of its last version, with what it is; unknown where it cannot be kept
         bool kept_before = false;  // it is of an earlier frame, and no pass writes it
         bool complete = false;     // all that use it have run
         int latest_version = -1;

@@ -151,9 +151,10 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
 
 void GpuScene::set_pose(const scene::Pose& pose) {
     if (forced_ && !white_) {
-        white_ = gl::Texture("white", {.format = GL_RGBA8, .width = 1, .height = 1});
-        const std::array<GLubyte, 4> white = {255, 255, 255, 255};
-        glTextureSubImage2D(white_.id(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, white.data());
+        // Of floats: filters of 8 bits may round a little below 1.
+        white_ = gl::Texture("white", {.format = GL_RGBA32F, .width = 1, .height = 1});
+        const std::array<float, 4> white = {1.0F, 1.0F, 1.0F, 1.0F};
+        glTextureSubImage2D(white_.id(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, white.data());
     }
     bounds_ = scene::world_bounds(scene_, pose);
     upload_materials(pose.materials);

@@ -74,8 +74,8 @@ class GpuScene {
     explicit GpuScene(const scene::Scene& scene);
 
     void set_pose(const scene::Pose& pose);
-    // From the next pose on every branch that shaders have for materials is compiled in, with white textures and
-    // colours, whether a material needs it or not: the picture is the same.
+    // From the next pose on every branch that shaders have for materials is compiled in, with white textures
+    // and colours, whether a material needs it or not: the picture is the same.
     void force_features(bool forced) { forced_ = forced; }
     // Puts simplified meshes beside the whole ones, for the pose that is set. They are made when it is first
     // called, and where the settings change.
@@ -146,7 +146,7 @@ class GpuScene {
     std::vector<double> draw_scales_;  // render units a model unit, at most
     std::optional<scene::Simplification> simplified_by_;
     scene::SimplifiedMeshes simplified_;  // without their triangles
-    uint32_t simplified_count_ = 0;  // how often they were made anew
+    uint32_t simplified_count_ = 0;       // how often they were made anew
     size_t simplified_triangles_ = 0;
     double simplified_error_m_ = 0.0;
     gl::Buffer draws_;

@@ -197,8 +197,16 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
         scene::drop_cut_out(scene_, parts_, set_.reflectors);
         wanted_ = wanted;
         sampled_on_hull_ = hull;
-        upload(vertices);
+        upload_due_ = true;
         ++samplings_;
+        const size_t total = set_.occluders.size() + set_.reflectors.size();
+        bytes_ = total * (sizeof(GpuPointSource) + sizeof(glm::uvec4)) +
+                 (set_.reflectors.empty() ? 0 : total * sizeof(glm::uvec4)) +
+                 set_.large.size() * (sizeof(glm::uvec4) + 3 * sizeof(glm::vec4));
+    }
+    if (upload_due_ && !plans_only_) {
+        upload(vertices);
+        upload_due_ = false;
     }
     deformed_ = vertices.content();
     std::vector<bool> drawn(scene_.nodes.size(), false);
@@ -231,7 +239,9 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
                    .add(deformed_)
                    .add_all(std::span<const GpuPointSurface>(surfaces_))
                    .key();
-    find_changes(surfaces_);
+    if (!upload_due_) {
+        find_changes(surfaces_);
+    }
     if (surface_buffer_.bytes() != surfaces_.size() * sizeof(GpuPointSurface)) {
         surface_buffer_ =
             gl::Buffer("point surfaces", surfaces_.size() * sizeof(GpuPointSurface), GL_DYNAMIC_STORAGE_BIT);
@@ -244,6 +254,15 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
         surface_buffer_.update(std::span<const GpuPointSurface>(surfaces_));
         uploaded_surfaces_ = surfaces_;
     }
+}
+
+size_t PointStore::allocated_bytes() const {
+    size_t sum = 0;
+    for (const gl::Buffer* buffer :
+         {&triangle_sources_, &triangles_, &point_materials_, &sources_, &points_}) {
+        sum += *buffer ? buffer->bytes() : 0;
+    }
+    return sum;
 }
 
 void PointStore::update_done() {

@@ -139,7 +139,8 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
             context.uniforms.bind(UBO_FRAME, context.frame);
             resources.texture(picture).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(sources).bind_image(IMG_SOURCES, GL_READ_ONLY);
-            const std::array<float, 9 * k_samples> weights = filter_weights(sample_places(resources, samples), offset);
+            const std::array<float, 9 * k_samples> weights =
+                filter_weights(sample_places(resources, samples), offset);
             glUniform1fv(0, static_cast<GLsizei>(weights.size()), weights.data());
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

@@ -115,7 +115,8 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
         out = over.valid() ? builder.write(over)
                            : builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
         const bool has_triangles = over.valid();
-        builder.decided_by(ContentHash().add(content(context, set)).add(inputs.close).add(has_triangles).key());
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(inputs.close).add(has_triangles).key());
         return [context, inputs, set, out, has_triangles](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) defines["SHARED"] = "1";
@@ -139,7 +140,8 @@ TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const
     graph.add_pass("ism pull-push", [&](PassBuilder& builder) {
         builder.read(splats);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
-        builder.decided_by(ContentHash().add(content(context, set)).add(content(settings)).add(from_depth).key());
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(content(settings)).add(from_depth).key());
         return [context, settings, set, splats, from_depth, out](const PassResources& resources) {
             const int side = std::min(set.map_size, k_largest_shared_map);
             const int border = side < set.map_size ? k_border : 0;
@@ -175,7 +177,8 @@ IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInp
         builder.read(set.vpls);
         out.splats = builder.create_texture("ism splats", atlas_desc(set, GL_R32UI));
         out.atlas = fused ? builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI)) : out.splats;
-        builder.decided_by(ContentHash().add(content(context, set)).add(content(inputs.pull_push)).add(fused).key());
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(content(inputs.pull_push)).add(fused).key());
         return [context, inputs, set, fused, out](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) {

@@ -102,7 +102,8 @@ void draw_scene(const PassContext& context, const View& view, DrawKind kind, con
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
                   const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 
-// What decides on what draw_scene() draws; view null: as draw_batches(). Materials where the kind looks at them.
+// What decides on what draw_scene() draws; view null: as draw_batches(). Materials where the kind looks at
+// them.
 [[nodiscard]] ContentKey drawn_content(const PassContext& context, const View* view, DrawKind kind,
                                        gpu::Geometry geometry = gpu::Geometry::whole);
 // Of a uniform block.

@@ -13,11 +13,7 @@ BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const Imp
         read_gbuffer(builder, view.gbuffer);
         pixels = builder.create_buffer("importance pixels",
                                        static_cast<size_t>(view.pixels) * sizeof(gpu::GpuImportancePixel));
-        builder.decided_by(ContentHash()
-                               .add(camera_content(context))
-                               .add(view.pixels)
-                               .add(view.seed)
-                               .key());
+        builder.decided_by(ContentHash().add(camera_content(context)).add(view.pixels).add(view.seed).key());
         return [context, view, pixels](const PassResources& resources) {
             context.programs.compute("passes/importance_pixels.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);

@@ -36,12 +36,8 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
             if (mapped) builder.read(importance);
         }
         vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
-        builder.decided_by(hash_of(sources)
-                               .add(content(context, layout))
-                               .add(sampling)
-                               .add(mapped)
-                               .add(chosen)
-                               .key());
+        builder.decided_by(
+            hash_of(sources).add(content(context, layout)).add(sampling).add(mapped).add(chosen).key());
         return [context, sources, layout, rows = rows_of(sources), tables, vpls, uniform, chosen, mapped,
                 importance](const PassResources& resources) {
             GLuint number = 0;

@@ -213,7 +213,8 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     }
 }
 
-// Whether what emits lights anything. plan.emitters: whether anything that is drawn emits. bounces: of its light.
+// Whether what emits lights anything. plan.emitters: whether anything that is drawn emits. bounces: of its
+// light.
 void plan_emitters(const Settings& settings, bool whole, int bounces, FramePlan& plan) {
     const bool emits = plan.emitters;
     plan.emitters = emits && plan.receives && whole && settings.emitter_vpls > 0;
@@ -325,16 +326,18 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan.traced = plan.vpls && settings.traces_first();
     plan.near_field = plan.vpls && settings.near_field && !plan.traced;
     const double albedo = albedo_bound(scene, pose, settings.glossy_bounces);
-    const int counted = settings.forced == Forced::all ? settings.bounces : counted_bounces(settings.bounces, albedo);
+    const int counted =
+        settings.forced == Forced::all ? settings.bounces : counted_bounces(settings.bounces, albedo);
     if (plan.vpls && counted < settings.bounces) {
         plan.left_out.push_back(
             {"further bounces",
-             fmt::format("no surface reflects more than {:.2g} of the light, so less than {:g} of it is to come "
-                         "after {}",
-                         albedo, k_least_bounced_share,
-                         counted == 0   ? "direct light"
-                         : counted == 1 ? "the first bounce"
-                                        : fmt::format("{} bounces", counted))});
+             fmt::format(
+                 "no surface reflects more than {:.2g} of the light, so less than {:g} of it is to come "
+                 "after {}",
+                 albedo, k_least_bounced_share,
+                 counted == 0   ? "direct light"
+                 : counted == 1 ? "the first bounce"
+                                : fmt::format("{} bounces", counted))});
     }
     plan.bounces = plan.vpls ? counted : 0;
     if (plan.vpls && plan.bounces == 0) {
@@ -366,9 +369,8 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
                                                      : "nothing that is drawn has a triangle"});
     }
     plan.world_bounces =
-        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
-            ? counted
-            : 0;
+        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show) ? counted
+                                                                                                 : 0;
     plan_emitters(settings, whole, counted, plan);
     plan_grid(settings, plan);
     if (plan.world_bounces + plan.emitter_bounces > 0) {

@@ -30,7 +30,14 @@ const std::vector<Step>& steps() {
         [](Settings&, bool& keeps) {
             const bool kept = keeps;
             keeps = false;
-            return std::string(kept ? "nothing is kept between frames: frames take longer, and look the same" : "");
+            return std::string(kept ? "nothing is kept between frames: frames take longer, and look the same"
+                                    : "");
+        },
+        [](Settings& s, bool&) {
+            const bool held = !s.frees_idle;
+            s.frees_idle = true;
+            return std::string(
+                held ? "textures are freed between passes: frames take longer, and look the same" : "");
         },
         [](Settings& s, bool&) {
             int size = s.used_soft_shadow_size();
@@ -52,8 +59,9 @@ const std::vector<Step>& steps() {
             return said;
         },
         [](Settings& s, bool&) {
-            return s.technique == Technique::ism ? halve(s.ism_size, 32, "maps of bounced light have a side of")
-                                                 : std::string();
+            return s.technique == Technique::ism
+                       ? halve(s.ism_size, 32, "maps of bounced light have a side of")
+                       : std::string();
         },
         [](Settings& s, bool&) { return halve(s.world_vpls, 64, "lights that stand for the world:"); },
         [](Settings& s, bool&) { return halve(s.emitter_vpls, 64, "lights on what emits:"); },
@@ -64,7 +72,9 @@ const std::vector<Step>& steps() {
             return s.technique == Technique::ism ? halve(s.vpls, 64, "lights of the first bounce:")
                                                  : std::string();
         },
-        [](Settings& s, bool&) { return halve(s.transparent_layers, 1, "blended surfaces over each other:"); },
+        [](Settings& s, bool&) {
+            return halve(s.transparent_layers, 1, "blended surfaces over each other:");
+        },
         [](Settings& s, bool&) {
             const bool smooth = s.antialias;
             s.antialias = false;
@@ -116,7 +126,8 @@ MemoryFit fit_to_memory(Renderer& renderer, const std::vector<Moment>& moments, 
     renderer.expect_frames(out.keeps);
     if (out.peak_bytes > limit) {
         throw usage_error(fmt::format(
-            "{}x{} pixels of {} need {:.1f} MiB of GPU memory with the least settings, and the limit is {:.1f}: raise "
+            "{}x{} pixels of {} need {:.1f} MiB of GPU memory with the least settings, and the limit is "
+            "{:.1f}: raise "
             "--memory-limit or give a smaller --size",
             settings.width, settings.height, renderer.gpu_scene().source().name,
             static_cast<double>(out.peak_bytes) / k_mebibyte, static_cast<double>(limit) / k_mebibyte));

@@ -156,7 +156,7 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
                                          const passes::ScenePoints& scene, size_t light) {
     passes::ImperfectMaps maps = in.imperfect[light];
     maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light],
-                                         in.places_content[light]);
+                                        in.places_content[light]);
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
@@ -168,8 +168,8 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
 
 // The lights on emissive surfaces and their shadow maps.
 passes::VplSet add_emitters(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
-    passes::VplSet emitters =
-        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.points->content(), in.emitters.lights);
+    passes::VplSet emitters = passes::add_emitter_lights(graph, in.context, *in.emitter_store,
+                                                         in.points->content(), in.emitters.lights);
     if (in.plan.emitters_occluded) {
         emitters.atlas = add_maps(graph, in, scene, emitters).atlas;
     }

@@ -32,8 +32,9 @@ void for_each_drawn(const scene::Scene& scene, const scene::Pose& pose, const Vi
     for (const scene::DrawInstance& draw : pose.draws) {
         for (const scene::Primitive& primitive : scene.meshes[at(draw.mesh)].primitives) {
             if (!primitive.indices.empty()) {
-                visit(primitive, primitive.material == scene::k_none ? default_material
-                                                                     : pose.materials[at(primitive.material)]);
+                visit(primitive, primitive.material == scene::k_none
+                                     ? default_material
+                                     : pose.materials[at(primitive.material)]);
             }
         }
     }
@@ -98,7 +99,8 @@ std::vector<LeftOut> absent_details(const scene::Scene& scene, const scene::Pose
         }
     };
     const Drawn drawn = find_drawn(scene, pose);
-    leave_out_if(!drawn.base_color_texture, "base colour textures", "no visible surface has one: compiled out");
+    leave_out_if(!drawn.base_color_texture, "base colour textures",
+                 "no visible surface has one: compiled out");
     leave_out_if(!drawn.metallic_roughness_texture, "metallic-roughness textures",
                  "no visible surface has one: compiled out");
     leave_out_if(!drawn.normal_map, "normal maps", "no visible surface has one: compiled out");
@@ -106,9 +108,11 @@ std::vector<LeftOut> absent_details(const scene::Scene& scene, const scene::Pose
     leave_out_if(!drawn.vertex_colors, "vertex colours", "no visible mesh has any: compiled out");
     leave_out_if(!drawn.alpha, "alpha test", "every visible surface is opaque: compiled out");
     leave_out_if(!drawn.lobes, "glossy lobes", "no visible surface is metallic or specular");
-    leave_out_if(drawn.lobes && !plan.glossy && plan.indirect, "glossy lobes of bounced light",
-                 settings.glossy_bounces ? "no light bounces by them" : "diffuse bounces alone were asked for");
-    leave_out_if(!sends(pose, plan, scene::LightType::point), "point lights", "none sends light in this frame");
+    leave_out_if(
+        drawn.lobes && !plan.glossy && plan.indirect, "glossy lobes of bounced light",
+        settings.glossy_bounces ? "no light bounces by them" : "diffuse bounces alone were asked for");
+    leave_out_if(!sends(pose, plan, scene::LightType::point), "point lights",
+                 "none sends light in this frame");
     leave_out_if(!sends(pose, plan, scene::LightType::spot), "spot lights", "none sends light in this frame");
     leave_out_if(!sends(pose, plan, scene::LightType::sun), "suns", "none sends light in this frame");
     leave_out_if(!sends(pose, plan, scene::LightType::area), "area lights", "none sends light in this frame");

@@ -256,8 +256,8 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         uniforms.grid = {sphere_grid_, 0, 0};
         uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
     }
-    return {&sphere_cells_, sphere_content_, uniforms_.add(uniforms), sphere_grid_.x, sphere_grid_.y,
-            environment_ && environment_->has_suns()};
+    return {&sphere_cells_, sphere_content_, uniforms_.add(uniforms),
+            sphere_grid_.x, sphere_grid_.y,  environment_ && environment_->has_suns()};
 }
 
 SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
@@ -352,6 +352,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         // What is on the hull hides no place of the scene from another, but the world from both.
         // Nor do lights of the scene all stand within it.
         counts.hull_hides = plan.world_occluded || plan.imperfect_shadows;
+        points_->plan_only(plans_only_);
         points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull,
                           plan.world_bounces > 0);
         out.triangles =
@@ -631,6 +632,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         color_ = gl::Texture("color", target);
     }
 
+    pool_.hold_idle(!settings.frees_idle);
     gl::PassTimer timer(timing);
     const Moment still{of_scene, view};
     const Moment& previous = before != nullptr ? *before : still;
@@ -879,13 +881,16 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
     const bool keeps = one_of_many == nullptr && settings.forced == Forced::nothing;
     if (plans_only_) {
-        const FrameGraph::Forecast forecast = graph.forecast(keeps && contents_.on());
+        const FrameGraph::Forecast forecast = graph.forecast(keeps && contents_.on(), !settings.frees_idle);
         report.executed.insert(report.executed.end(), forecast.passes.begin(), forecast.passes.end());
         for (const std::string& pass : forecast.culled) {
             report.left_out.push_back({pass, "nothing reads what it makes"});
         }
-        report.memory = {.lasting = gl::allocated_bytes() - pool_.bytes() - contents_.bytes(),
-                         .passes = forecast.peak_bytes};
+        size_t lasting = gl::allocated_bytes() - pool_.bytes() - contents_.bytes();
+        if (points_) {
+            lasting += points_->bytes() - points_->allocated_bytes();
+        }
+        report.memory = {.lasting = lasting, .passes = forecast.peak_bytes};
         return report;
     }
     if (settings.forced != Forced::nothing) {

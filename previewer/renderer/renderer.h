@@ -65,7 +65,8 @@ struct FrameReport {
         std::string reason;
     };
     std::optional<Reuse> reuse;
-    // Textures and buffers, bytes: of the scene and what outlives frames, and what this frame's passes have at once.
+    // Textures and buffers, bytes: of the scene and what outlives frames, and what this frame's passes have
+    // at once.
     struct Memory {
         size_t lasting = 0;
         size_t passes = 0;
@@ -101,19 +102,20 @@ class Renderer {
     // them: red, green, blue and error, top row first.
     [[nodiscard]] std::vector<glm::vec4> resolve_many();
 
-    // What render() would do, without drawing: executed and left_out are those of a frame for which nothing was
-    // kept, and the memory is what it would allocate. Points and buffers of the scene are made. Throws the same.
+    // What render() would do, without drawing: executed and left_out are those of a frame for which nothing
+    // was kept, and the memory is what it would allocate. Points and buffers of the scene are made. Throws
+    // the same.
     FrameReport plan(const scene::Pose& pose, const CameraView& camera, const Settings& settings);
 
     // Whether more frames of this scene are to come: what passes made and what is still the same in the frame
     // after keep_frame() is then not made again. A picture is the same either way, to the bit.
     void expect_frames(bool more) { contents_.set_on(more, pool_); }
     [[nodiscard]] bool expects_frames() const { return contents_.on(); }
-    // The frame that was drawn last is the frame before the next one, for all that goes on from frame to frame.
-    // A frame may be drawn several times before: each starts from the same.
-    // With Settings::temporal_reuse each frame takes light of the one that was drawn last before
-    // keep_frame(), so that a frame drawn twice is the same twice; none after forget_history(), nor after a
-    // frame without that setting.
+    // The frame that was drawn last is the frame before the next one, for all that goes on from frame to
+    // frame. A frame may be drawn several times before: each starts from the same. With
+    // Settings::temporal_reuse each frame takes light of the one that was drawn last before keep_frame(), so
+    // that a frame drawn twice is the same twice; none after forget_history(), nor after a frame without that
+    // setting.
     void keep_frame();
     void forget_history();
 

@@ -176,6 +176,7 @@ struct Settings {
     int convolution_order = 4;  // terms of the Fourier series, as in the paper
 
     Forced forced = Forced::nothing;
+    bool frees_idle = false;  // textures are freed between passes: less memory, more time
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
     bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
