@@ -21,5 +21,4 @@ target_compile_definitions(bounce_glm INTERFACE
 
 if(BOUNCE_TESTS)
   find_package(GTest REQUIRED)
-  include(GoogleTest)
 endif()
