@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
-#include "scene/points/morton.h"
 #include "scene/points/sobol.h"
 
 namespace bounce::scene {
@@ -127,25 +125,11 @@ std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>&
     return out;
 }
 
-// All parts, along a curve through their centres, whatever the order of the scene's nodes.
 std::vector<Sampled> all_of(const SurfaceParts& parts) {
-    glm::dvec3 low(1e300);
-    glm::dvec3 high(-1e300);
-    for (const SurfacePart& part : parts.parts) {
-        low = glm::min(low, part.center_world);
-        high = glm::max(high, part.center_world);
-    }
-    const glm::dvec3 cells = 1023.0 / glm::max(high - low, glm::dvec3(1e-300));
     std::vector<Sampled> out;
     for (const SurfacePart& part : parts.parts) {
         out.push_back({&part, part.table.get(), {}, {}, part.area_m2, {}, part.area_m2});
     }
-    const auto key = [&](const Sampled& s) {
-        const glm::dvec3& c = s.part->center_world;
-        return std::tuple(morton(glm::uvec3((c - low) * cells)), c.x, c.y, c.z, s.area_m2);
-    };
-    std::stable_sort(out.begin(), out.end(),
-                     [&](const Sampled& a, const Sampled& b) { return key(a) < key(b); });
     return out;
 }
 
