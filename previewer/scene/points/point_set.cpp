@@ -33,6 +33,7 @@ double triangle_area_m2(const SurfacePart& part, const AreaTable& table, size_t 
 
 struct PlacedTriangle {
     double area_m2;
+    double rank;  // of its area, the same for triangles of one shape however their corners are rounded
     size_t part;
     size_t index;  // into the part's cover
 };
@@ -47,19 +48,19 @@ std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vec
     }
     // Without the largest ones less is left, and a share of it is smaller.
     std::vector<PlacedTriangle> candidates;
+    const double all = left;
     const double least = left * k_large_points / static_cast<double>(points_a_map) / 16.0;
     for (size_t p = 0; p < parts.parts.size(); ++p) {
         const SurfacePart& part = parts.parts[p];
         for (size_t i = 0;
              use[p] && !part.cut_out && part.area_m2 >= least && i < part.cover->triangles.size(); ++i) {
             if (const double area = triangle_area_m2(part, *part.cover, i); area >= least) {
-                candidates.push_back({area, p, i});
+                candidates.push_back({area, std::floor(std::log2(area / all) * 4096.0 + 0.618), p, i});
             }
         }
     }
     std::sort(candidates.begin(), candidates.end(), [](const PlacedTriangle& a, const PlacedTriangle& b) {
-        return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2
-                                      : std::pair(a.part, a.index) < std::pair(b.part, b.index);
+        return a.rank != b.rank ? a.rank > b.rank : std::pair(a.part, a.index) < std::pair(b.part, b.index);
     });
     size_t count = 0;
     while (count < std::min(candidates.size(), k_most_large_triangles) &&

@@ -94,11 +94,12 @@ AreaTable make_table(const Positions& p, Triangles triangles) {
 
 // Triangles of one primitive by the plane they lie in.
 std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive, const Positions& p) {
-    glm::dvec3 size(0.0);
+    Bounds box;  // which may lie far from the origin
     for (const glm::dvec3& position : p) {
-        size = glm::max(size, glm::abs(position));
+        box.grow(position);
     }
-    const double offset_step = std::max(glm::length(size), 1e-300) / k_offset_steps;
+    const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();
+    const double offset_step = std::max(0.5 * box.diagonal(), 1e-300) / k_offset_steps;
     std::map<std::array<int64_t, 4>, std::vector<uint32_t>> planes;
     const auto count = static_cast<uint32_t>(primitive.indices.size() / 3);
     for (uint32_t triangle = 0; triangle < count; ++triangle) {
@@ -109,7 +110,7 @@ std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive
             continue;  // a triangle without area is drawn nowhere and hides nothing
         }
         const glm::dvec3 normal = area / length;
-        const double offset = glm::dot(normal, p[corners.x]);
+        const double offset = glm::dot(normal, p[corners.x] - middle);
         planes[{std::llround(normal.x * k_normal_steps), std::llround(normal.y * k_normal_steps),
                 std::llround(normal.z * k_normal_steps), std::llround(offset / offset_step)}]
             .push_back(triangle);
