@@ -35,6 +35,7 @@ const std::vector<SceneChange>& scene_changes() {
         scaling("scale 1e-3", 1e-3),
         scaling("scale 1e3", 1e3),
         scaling("scale 1e5", 1e5),
+        scaling("scale 2^20", 0x1p20),
         {"move 1e6", [](const scene::Scene& scene) { return scene::moved(scene, {1e6, -1e6, 1e6}); }},
         lighting("light 1e-6", 1e-6),
         lighting("light 1e6", 1e6),
