@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,13 +39,15 @@ struct BenchOptions {
 };
 
 struct BenchInputs {
-    const scene::Scene& scene;
+    const scene::Scene& scene;  // the first of them
+    std::span<const scene::Scene> scenes;
     const BenchOptions& options;
     gl::TimingMode timing;
     const InterruptGuard& interrupts;
 
     // The frame that was asked for, or the scene's first.
-    [[nodiscard]] double frame() const;
+    [[nodiscard]] double frame() const { return frame_of(scene); }
+    [[nodiscard]] double frame_of(const scene::Scene& of) const;
     [[nodiscard]] int repeat() const;
     // Defaults of the program with what the user gave; 640x360 without --size, a quarter of that with
     // --quick.
@@ -75,6 +78,8 @@ void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
 void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
+void measure_furnace(const BenchInputs& inputs, BenchReport& report);
+void measure_invariance(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
 // experiments take of memory. Empty where it is.
@@ -85,6 +90,7 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
+    bool many_scenes = false;  // takes more than one
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

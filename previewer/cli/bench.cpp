@@ -34,22 +34,26 @@ constexpr int k_most_vpls = 4096;
 
 struct BenchArguments {
     std::string experiment;
-    std::string scene;
+    std::vector<std::string> scenes;
     std::string size;
     std::filesystem::path output;
     SceneSourceOptions source;
     BenchOptions options;
 };
 
-scene::Scene bench_scene(const BenchArguments& arguments) {
-    if (arguments.scene.empty()) {
-        return bench::make_room();
+std::vector<scene::Scene> bench_scenes(const BenchArguments& arguments) {
+    std::vector<scene::Scene> out;
+    for (const std::string& file : arguments.scenes) {
+        scene::LoadResult loaded = load_scene(file, arguments.source);
+        for (const std::string& warning : loaded.warnings) {
+            log::warning("{}", warning);
+        }
+        out.push_back(std::move(loaded.scene));
     }
-    scene::LoadResult loaded = load_scene(arguments.scene, arguments.source);
-    for (const std::string& warning : loaded.warnings) {
-        log::warning("{}", warning);
+    if (out.empty()) {
+        out.push_back(bench::make_room());
     }
-    return std::move(loaded.scene);
+    return out;
 }
 
 ExitCode run_bench(BenchArguments arguments) {
@@ -57,19 +61,27 @@ ExitCode run_bench(BenchArguments arguments) {
     if (!arguments.size.empty()) {
         std::tie(arguments.options.width, arguments.options.height) = parse_size(arguments.size);
     }
-    const scene::Scene scene = bench_scene(arguments);
-    arguments.options.generated = arguments.scene.empty();
+    if (arguments.scenes.size() > 1 && !experiment.many_scenes) {
+        throw usage_error(fmt::format("experiment {} takes one scene, not {}", experiment.name,
+                                      arguments.scenes.size()));
+    }
+    const std::vector<scene::Scene> scenes = bench_scenes(arguments);
+    arguments.options.generated = arguments.scenes.empty();
     require_writable(arguments.output / "results.json");
 
     const gl::HeadlessContext context;
     const gl::DeviceInfo device = gl::initialise_current_context();
     const InterruptGuard interrupts;
-    const bench::BenchInputs inputs{scene, arguments.options,
+    const bench::BenchInputs inputs{scenes.front(), scenes, arguments.options,
                                     device.software ? gl::TimingMode::finish : gl::TimingMode::query,
                                     interrupts};
     const bench::BenchReport report = bench::run_experiment(experiment, inputs, device, this_command());
     bench::write_bench_report(report, arguments.output);
     fmt::print("{}\nreport: {}\n", bench::report_text(report), (arguments.output / "index.html").string());
+    if (report.bounds_broken > 0) {
+        log::error("{} of what must hold does not: see the table", report.bounds_broken);
+        return ExitCode::above_threshold;
+    }
     return ExitCode::done;
 }
 
@@ -90,8 +102,9 @@ void add_bench(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<BenchArguments>();
     BenchOptions& options = arguments->options;
     command->add_option("experiment", arguments->experiment, "What to measure; listed below")->required();
-    command->add_option("scene", arguments->scene,
-                        "Scene: .glb, .gltf or .blend; without it a room made in memory");
+    command->add_option("scene", arguments->scenes,
+                        "Scene: .glb, .gltf or .blend, several with invariance; without it a room made in "
+                        "memory");
     command->add_option("-o,--output", arguments->output, "Folder for results.json and index.html")
         ->required();
     command->add_option("--frame", options.frame, "Frame by Blender's number; the scene's first by default");

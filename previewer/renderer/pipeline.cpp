@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -541,6 +542,25 @@ void read_reflected_flux(FrameGraph& graph, const passes::VplImportance& importa
     });
 }
 
+// Virtual point lights are drawn from the sources in the order of their names, so that they are the same
+// whatever the order of the scene's nodes. firsts: indices of some sources, which go with them.
+void sort_by_name(std::vector<passes::RsmSource>& sources, std::vector<size_t>& firsts) {
+    std::vector<size_t> order(sources.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return sources[a].light.name < sources[b].light.name; });
+    std::vector<passes::RsmSource> sorted;
+    std::vector<size_t> place(sources.size());
+    for (const size_t i : order) {
+        place[i] = sorted.size();
+        sorted.push_back(sources[i]);
+    }
+    sources = std::move(sorted);
+    for (size_t& first : firsts) {
+        first = place[first];
+    }
+}
+
 }  // namespace
 
 void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
@@ -603,6 +623,8 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             }
         }
     }
+
+    sort_by_name(gather.sources, first_places);
 
     const auto shown = static_cast<size_t>(in.settings.shown_light);
     if (shows_rsm(in.settings.show) && shown < first_places.size()) {

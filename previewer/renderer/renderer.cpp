@@ -50,16 +50,16 @@ double box_surface_m2(const scene::Bounds& box) {
 }
 
 // Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would
-// give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
-// what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
-// itself.
+// give to a closed box around the scene becomes a sixteenth. That leaves a factor of a thousand for what is
+// darker with all its digits, and of a million for what is brighter. Not just the next power of two, so that
+// light a million times as strong is the same halves.
 float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds, double world_irradiance) {
     const double box = box_surface_m2(bounds);
     const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box + world_irradiance;
     if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
         return 1.0F;
     }
-    return static_cast<float>(std::exp2(std::clamp(-4.0 - std::round(std::log2(irradiance)), -120.0, 120.0)));
+    return static_cast<float>(std::clamp(0x1p-4 / irradiance, 0x1p-120, 0x1p120));
 }
 
 // Texels a side of an imperfect reflective shadow map: it decides where the next bounce's lights stand, not
@@ -772,6 +772,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
             source_fluxes.push_back(bounce_sources.back().pass.flux_w);
         }
     }
+    // As sort_by_name() in pipeline.cpp.
+    std::stable_sort(
+        ray_lights.begin(), ray_lights.end(),
+        [](const AvgRayLight& a, const AvgRayLight& b) { return a.setup.name < b.setup.name; });
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, choice);
     const AvgInputs avg = prepare_avg(ray_lights, settings, plan);
