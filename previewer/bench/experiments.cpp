@@ -100,6 +100,9 @@ const std::vector<Experiment>& experiments() {
         {"vpl-sampling", "Samplers of virtual point lights",
          "time, mean, flicker and error of each --vpl-sampling (Table 2, Figures 6 to 8 of 2013)",
          measure_vpl_sampling},
+        {"auto", "Preset auto within a time a frame",
+         "time and error of preset auto within --budgets against every other preset's; takes many scenes",
+         measure_auto_budgets, true},
     };
     return all;
 }

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/bench_report.h"
@@ -33,6 +35,10 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
+    // auto: times a frame, and the picture's size for each, or for all.
+    std::vector<double> budgets_ms{33.0, 100.0, 250.0};
+    std::vector<std::pair<int, int>> sizes;
+    std::string references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
@@ -42,6 +48,7 @@ struct BenchInputs {
     const BenchOptions& options;
     gl::TimingMode timing;
     const InterruptGuard& interrupts;
+    std::span<const scene::Scene> scenes;  // all that were given; the first is `scene`
 
     // The frame that was asked for, or the scene's first.
     [[nodiscard]] double frame() const;
@@ -73,6 +80,7 @@ void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report
 void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
+void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
@@ -84,6 +92,7 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
+    bool many_scenes = false;  // otherwise one
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 
