@@ -38,7 +38,8 @@ struct BenchOptions {
     // auto: times a frame, and the picture's size for each, or for all.
     std::vector<double> budgets_ms{33.0, 100.0, 250.0};
     std::vector<std::pair<int, int>> sizes;
-    std::string references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string
+        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };

@@ -42,12 +42,13 @@ void try_automatic(Renderer& renderer, const scene::Scene& scene, const RenderOp
     use.choice = std::move(trial.choice);
     use.speed = use.request.machine_speed = trial.machine_speed;
     use.measured_ms = trial.measured_ms;
-    log::info("settings for {:g} ms a frame, by {} frames on trial; --machine-speed {:.6g} chooses them again",
-              *use.request.budget_ms, trial.frames, trial.machine_speed);
+    log::info(
+        "settings for {:g} ms a frame, by {} frames on trial; --machine-speed {:.6g} chooses them again",
+        *use.request.budget_ms, trial.frames, trial.machine_speed);
     if (!use.choice.fits || trial.measured_ms > *use.request.budget_ms) {
-        log::warning("nothing fits into {:g} ms at {}x{}: a frame took {:.3g} ms on trial at the cheapest settings",
-                     *use.request.budget_ms, use.choice.settings.width, use.choice.settings.height,
-                     trial.measured_ms);
+        log::warning(
+            "nothing fits into {:g} ms at {}x{}: a frame took {:.3g} ms on trial at the cheapest settings",
+            *use.request.budget_ms, use.choice.settings.width, use.choice.settings.height, trial.measured_ms);
     }
 }
 

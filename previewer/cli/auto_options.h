@@ -27,20 +27,21 @@ struct AutoUse {
     [[nodiscard]] bool needs_trial() const { return used && request.budget_ms && !speed; }
 };
 
-// target_relmse: that a frame by itself is to reach. Throws usage_error like RenderOptions::settings(), and for
-// a target with a budget or with another preset.
+// target_relmse: that a frame by itself is to reach. Throws usage_error like RenderOptions::settings(), and
+// for a target with a budget or with another preset.
 [[nodiscard]] AutoUse choose_automatically(const RenderOptions& options, const scene::Scene& scene,
                                            std::optional<double> target_relmse);
 
-// Chooses again by frames on trial (choose_on_trial()), of `frame` by Blender's number. Says the machine's speed
-// on stderr.
+// Chooses again by frames on trial (choose_on_trial()), of `frame` by Blender's number. Says the machine's
+// speed on stderr.
 void try_automatic(Renderer& renderer, const scene::Scene& scene, const RenderOptions& options, int animation,
                    int frame, AutoUse& use);
 
 // Refuses a budget for frames beside --converge, whose passes have no time of their own to keep.
 void check_targets(const RenderOptions& options, const ConvergeOptions& converge);
 
-// The sentences of --explain, on stdout; also those for what auto would choose for a scene that is only described.
+// The sentences of --explain, on stdout; also those for what auto would choose for a scene that is only
+// described.
 void print_choice(const AutoUse& use);
 [[nodiscard]] std::vector<std::string> choice_lines(const AutoUse& use);
 

@@ -102,9 +102,10 @@ void add_bench(CLI::App& app, Run& run) {
     const auto arguments = std::make_shared<BenchArguments>();
     BenchOptions& options = arguments->options;
     command->add_option("experiment", arguments->experiment, "What to measure; listed below")->required();
-    command->add_option("scene", arguments->scenes,
-                        "Scene: .glb, .gltf or .blend; without it a room made in memory. Experiment auto takes "
-                        "many");
+    command->add_option(
+        "scene", arguments->scenes,
+        "Scene: .glb, .gltf or .blend; without it a room made in memory. Experiment auto takes "
+        "many");
     command->add_option("-o,--output", arguments->output, "Folder for results.json and index.html")
         ->required();
     command->add_option("--frame", options.frame, "Frame by Blender's number; the scene's first by default");
@@ -112,16 +113,18 @@ void add_bench(CLI::App& app, Run& run) {
                         "Camera node by name; the scene's active camera by default");
     command->add_option("--size", arguments->size, "Width and height in pixels; 640x360 by default");
     command
-        ->add_option("--budgets", options.budgets_ms, "auto: milliseconds a frame; 33, 100 and 250 by default")
+        ->add_option("--budgets", options.budgets_ms,
+                     "auto: milliseconds a frame; 33, 100 and 250 by default")
         ->delimiter(',')
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--sizes", arguments->sizes,
                      "auto: the picture's size for each budget, such as 96x54,160x90; --size for all")
         ->delimiter(',');
-    command->add_option("--references", options.references,
-                        "auto: pictures by Cycles with one bounce, such as refs/{scene}.{size}.exr; without them "
-                        "one of our own that has converged for 20 s");
+    command->add_option(
+        "--references", options.references,
+        "auto: pictures by Cycles with one bounce, such as refs/{scene}.{size}.exr; without them "
+        "one of our own that has converged for 20 s");
     command->add_option("--repeat", options.repeat, "Times each setting is measured; 5 by default")
         ->check(CLI::Range(1, 1000));
     command->add_option("--vpls", options.vpls, "Virtual point lights where they are not varied")

@@ -117,10 +117,11 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
         "transform with two or three, by Metropolis' chains weighed as the paper does, by their first "
         "proposal or with their start-up bias, or by chains that resample",
         name_of(d.vpl_sampling));
-    group.one_of("--vpl-importance", o.vpl_importance, setting_names<Importance>(),
-                 "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
-                 "unhidden, as in the 2013 paper; preset auto takes the view where it shows little of what is lit",
-                 name_of(d.vpl_importance));
+    group.one_of(
+        "--vpl-importance", o.vpl_importance, setting_names<Importance>(),
+        "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
+        "unhidden, as in the 2013 paper; preset auto takes the view where it shows little of what is lit",
+        name_of(d.vpl_importance));
     group.number("--importance-pixels", o.importance_pixels,
                  "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; at least 64 "
                  "of them and at most 16,384",
@@ -317,10 +318,11 @@ void RenderOptions::add_to(CLI::App& command) {
         "direct light only; rsm: one bounce gathered from reflective shadow maps, which nothing hides; ism: "
         "bounces by virtual point lights with imperfect shadow maps",
         name_of(Settings{}.technique));
-    group.one_of("--preset", preset, presets(),
-                 "Settings that belong together, from which single options may differ: auto chooses by the scene "
-                 "(--explain says what), the others are as in the papers",
-                 "auto");
+    group.one_of(
+        "--preset", preset, presets(),
+        "Settings that belong together, from which single options may differ: auto chooses by the scene "
+        "(--explain says what), the others are as in the papers",
+        "auto");
     group.number(
         "--world-vpls", world_vpls,
         fmt::format(
@@ -389,9 +391,10 @@ void RenderOptions::add_to(CLI::App& command) {
         std::to_string(Settings{}.convolution_order));
     const char* measured = "Settings by a budget (preset auto)";
     command
-        .add_option("--budget-ms", budget_ms,
-                    "The best settings for so many milliseconds a frame, by curves measured on other scenes; with "
-                    "--tuning by those of this one")
+        .add_option(
+            "--budget-ms", budget_ms,
+            "The best settings for so many milliseconds a frame, by curves measured on other scenes; with "
+            "--tuning by those of this one")
         ->check(CLI::PositiveNumber)
         ->group(measured);
     command
@@ -399,9 +402,10 @@ void RenderOptions::add_to(CLI::App& command) {
                     "The file tuning.json that bounce evaluate writes of a scene, for --budget-ms")
         ->group(measured);
     command
-        .add_option("--machine-speed", machine_speed,
-                    "How many times as fast this machine is as the one that auto's times are of (docs/auto.md), "
-                    "for --budget-ms: the same settings again. Without it a few frames on trial tell")
+        .add_option(
+            "--machine-speed", machine_speed,
+            "How many times as fast this machine is as the one that auto's times are of (docs/auto.md), "
+            "for --budget-ms: the same settings again. Without it a few frames on trial tell")
         ->check(CLI::PositiveNumber)
         ->group(measured);
     command.add_flag("--explain", explain, "Says in words what preset auto has chosen, and why")
@@ -515,10 +519,12 @@ void RenderOptions::check() const {
     throw_if_refused(settings_refusal(out));
     throw_if_refused(option_conflict(*this, out));
     if (!automatic() && explain) {
-        throw usage_error(tuning.empty() ? fmt::format("--explain is of preset auto; --preset {} chooses nothing "
-                                                       "by the scene", *preset)
-                                         : std::string("--explain is of what preset auto chooses by itself; "
-                                                       "--tuning has the settings"));
+        throw usage_error(tuning.empty()
+                              ? fmt::format("--explain is of preset auto; --preset {} chooses nothing "
+                                            "by the scene",
+                                            *preset)
+                              : std::string("--explain is of what preset auto chooses by itself; "
+                                            "--tuning has the settings"));
     }
     if (machine_speed && !(budget_ms && tuning.empty())) {
         throw usage_error("--machine-speed says what a budget is worth; give --budget-ms, without --tuning");
@@ -542,12 +548,12 @@ FixedKnobs RenderOptions::fixed_knobs() const {
     // Layers show what a technique makes, not only what it looks like.
     fix(technique || (show && *show != name_of(Show::shaded)), {Knob::technique});
     // Whoever turns one technique's own settings wants that technique.
-    const bool of_lights = vpls || bounce_vpls || interleave || near_field || glossy || bounce_source || avg_size ||
-                           avg_hits || avg_paths || vpl_sampling || vpl_importance || importance_pixels ||
-                           importance_floor || vpl_steps || shading || simplify || simplify_error ||
-                           visibility || ism_size || map_projection || points || splat || large_triangles ||
-                           hull || pull_push || pull_push_levels || pull_threshold || push_threshold ||
-                           temporal_reuse || bounces;
+    const bool of_lights = vpls || bounce_vpls || interleave || near_field || glossy || bounce_source ||
+                           avg_size || avg_hits || avg_paths || vpl_sampling || vpl_importance ||
+                           importance_pixels || importance_floor || vpl_steps || shading || simplify ||
+                           simplify_error || visibility || ism_size || map_projection || points || splat ||
+                           large_triangles || hull || pull_push || pull_push_levels || pull_threshold ||
+                           push_threshold || temporal_reuse || bounces;
     fix(of_lights || bounce_places, {Knob::technique});
     fix(vpls.has_value(), {Knob::vpls});
     fix(vpl_importance || vpl_sampling || importance_pixels || importance_floor, {Knob::importance});

@@ -103,8 +103,8 @@ struct RenderOptions {
     // what the scene does not have. Preset auto's settings are as it chooses them with the budget, if one was
     // given, at the machine speed that was given, else at 1.
     [[nodiscard]] Settings settings(const scene::Scene& scene) const;
-    // The same with the reasons. automatic() must be true. request: what auto_request() gives, with a speed or a
-    // target put in.
+    // The same with the reasons. automatic() must be true. request: what auto_request() gives, with a speed
+    // or a target put in.
     [[nodiscard]] AutoChoice choice(const scene::Scene& scene, const AutoRequest& request) const;
     // What preset auto is asked for: what was typed stays.
     [[nodiscard]] AutoRequest auto_request(const scene::Scene& scene) const;

@@ -101,7 +101,8 @@ RenderOptions with_tuning(const CLI::App& command, const RenderOptions& typed) {
     }
     if (!typed.budget_ms) {
         throw usage_error(
-            "--tuning needs --budget-ms: the file, which bounce evaluate writes as tuning.json, has the settings "
+            "--tuning needs --budget-ms: the file, which bounce evaluate writes as tuning.json, has the "
+            "settings "
             "that win within a time a frame");
     }
     if (typed.preset && *typed.preset != "auto") {

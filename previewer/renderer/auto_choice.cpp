@@ -184,8 +184,8 @@ std::string percent(double share) {
 void say_technique(const AutoScene& scene, const AutoRequest& request, const Settings& settings,
                    AutoChoice& out) {
     const auto say = [&](std::string text) {
-        out.reasons.push_back({knob_option(Knob::technique, static_cast<int>(settings.technique)),
-                               std::move(text)});
+        out.reasons.push_back(
+            {knob_option(Knob::technique, static_cast<int>(settings.technique)), std::move(text)});
     };
     if (request.fixed.test(bit_of(Knob::technique))) {
         return;
@@ -210,20 +210,30 @@ void say_importance(const AutoScene& scene, const AutoRequest& request, const Se
     const bool little = scene.seen_share < k_little_seen;
     const bool by_view = settings.vpl_importance == Importance::view;
     const std::string option = knob_option(Knob::importance, static_cast<int>(settings.vpl_importance));
-    if (by_view) {
-        out.reasons.push_back({option, fmt::format("Bounced light is judged by what the camera sees, because "
-                                                   "only {} of the lamps' light falls where it looks.",
-                                                   percent(scene.seen_share))});
+    const std::string share = percent(scene.seen_share);
+    std::string text;
+    if (by_view && little) {
+        text = fmt::format(
+            "Bounced light is judged by what the camera sees, because only {} of the lamps' light "
+            "counts for it.",
+            share);
+    } else if (by_view) {
+        text = fmt::format(
+            "Bounced light is judged by what the camera sees: {} of the lamps' light counts for "
+            "it, and looking costs little here.",
+            share);
     } else if (little) {
-        out.reasons.push_back({option, fmt::format("The camera looks at only {} of what the lamps light; "
-                                                   "judging bounced light by what it sees would "
-                                                   "be better, but does not fit.",
-                                                   percent(scene.seen_share))});
+        text = fmt::format(
+            "Only {} of the lamps' light counts for what the camera sees; to judge bounced light by "
+            "that would be better, but does not fit.",
+            share);
     } else {
-        out.reasons.push_back({option, fmt::format("Bounced light starts where surfaces are bright: the camera "
-                                                   "looks at {} of what the lamps light.",
-                                                   percent(scene.seen_share))});
+        text = fmt::format(
+            "Bounced light starts wherever lamps shine: {} of their light counts for what the "
+            "camera sees.",
+            share);
     }
+    out.reasons.push_back({option, std::move(text)});
 }
 
 void say_scene(const AutoScene& scene, AutoChoice& out) {
@@ -234,12 +244,14 @@ void say_scene(const AutoScene& scene, AutoChoice& out) {
         out.reasons.push_back({"", "Surfaces glow, so they are drawn as lights of their own."});
     }
     if (const int sized = scene.sized_planar + scene.sized_cube; sized > 0) {
-        out.reasons.push_back({"", fmt::format("{} a size, so {} shadows are soft.",
-                                               sized == 1 ? "One lamp has" : fmt::format("{} lamps have", sized),
-                                               sized == 1 ? "its" : "their")});
+        out.reasons.push_back(
+            {"", fmt::format("{} a size, so {} shadows are soft.",
+                             sized == 1 ? "One lamp has" : fmt::format("{} lamps have", sized),
+                             sized == 1 ? "its" : "their")});
     }
     if (scene.features.animated()) {
-        out.reasons.push_back({"", "All frames have the same settings, so that an animation does not flicker."});
+        out.reasons.push_back(
+            {"", "All frames have the same settings, so that an animation does not flicker."});
     }
 }
 
@@ -254,10 +266,14 @@ void say_changes(const Ladder& ladder, AutoChoice& out) {
         const bool finer = curve->levels.begin() + static_cast<std::ptrdiff_t>(at) < standard;
         std::string words = knob_words(curve->knob, value);
         words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+        const bool world_instead =
+            curve->knob == Knob::world_vpls && ladder.settings().technique == Technique::direct;
         out.reasons.push_back(
             {knob_option(curve->knob, value),
-             finer ? fmt::format("{}: there is time for more than the usual.", words)
-                   : fmt::format("{}: of what could be given up, this shows least for the time it saves.", words)});
+             world_instead ? words + ", and so makes up for some of the bounced light that is missing."
+             : finer       ? fmt::format("{}: there is time for more than the usual.", words)
+                     : fmt::format("{}: of what could be given up, this shows least for the time it saves.",
+                                   words)});
     }
 }
 
@@ -334,22 +350,24 @@ AutoChoice choose_settings(const AutoScene& scene, const AutoRequest& request) {
     }
     if (request.budget_ms) {
         out.reasons.push_back(
-            {"", out.fits ? fmt::format("A frame of {} x {} is expected to take {} of the {} ms there are.",
-                                        out.settings.width, out.settings.height,
-                                        milliseconds(out.predicted_ms), milliseconds(*request.budget_ms))
-                          : fmt::format("Nothing fits into {} ms at {} x {}: even this, the cheapest there is, "
-                                        "is expected to take {} ms. A smaller picture would fit.",
-                                        milliseconds(*request.budget_ms), out.settings.width,
-                                        out.settings.height, milliseconds(out.predicted_ms))});
+            {"", out.fits
+                     ? fmt::format("A frame of {} x {} is expected to take {} of the {} ms there are.",
+                                   out.settings.width, out.settings.height, milliseconds(out.predicted_ms),
+                                   milliseconds(*request.budget_ms))
+                     : fmt::format("Nothing fits into {} ms at {} x {}: even this, the cheapest there is, "
+                                   "is expected to take {} ms. A smaller picture would fit.",
+                                   milliseconds(*request.budget_ms), out.settings.width, out.settings.height,
+                                   milliseconds(out.predicted_ms))});
     } else if (request.target_relmse) {
         out.reasons.push_back(
-            {"", out.fits ? fmt::format("By the curves of the example scenes a frame is then within a relMSE of "
-                                        "{:.2g}, about {:.2g}.",
-                                        *request.target_relmse, out.predicted_relmse)
-                          : fmt::format("No frame by itself reaches a relMSE of {:.2g} by the curves of the "
-                                        "example scenes: this, the best there is, has about {:.2g}. --converge "
-                                        "goes on from there.",
-                                        *request.target_relmse, out.predicted_relmse)});
+            {"", out.fits
+                     ? fmt::format("By the curves of the example scenes a frame is then within a relMSE of "
+                                   "{:.2g}, about {:.2g}.",
+                                   *request.target_relmse, out.predicted_relmse)
+                     : fmt::format("No frame by itself reaches a relMSE of {:.2g} by the curves of the "
+                                   "example scenes: this, the best there is, has about {:.2g}. --converge "
+                                   "goes on from there.",
+                                   *request.target_relmse, out.predicted_relmse)});
     }
     return out;
 }

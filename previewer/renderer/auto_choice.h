@@ -33,7 +33,9 @@ enum class Knob {
 };
 inline constexpr size_t k_knobs = 14;
 using FixedKnobs = std::bitset<k_knobs>;  // one bit a Knob
-[[nodiscard]] constexpr size_t bit_of(Knob knob) { return static_cast<size_t>(knob); }
+[[nodiscard]] constexpr size_t bit_of(Knob knob) {
+    return static_cast<size_t>(knob);
+}
 
 struct AutoRequest {
     Settings base;  // the picture's size, what the user gave, and the standard for the rest
@@ -59,8 +61,9 @@ struct AutoChoice {
 };
 
 // Without budget and target quality comes first: the standard settings, but for what the scene calls for.
-// With a budget the settings with the least error by the curves among those that take no longer; with a target
-// the fastest that reach it. Where nothing does, the nearest, and `fits` is false and a reason says so.
+// With a budget the settings with the least error by the curves among those that take no longer; with a
+// target the fastest that reach it. Where nothing does, the nearest, and `fits` is false and a reason says
+// so.
 [[nodiscard]] AutoChoice choose_settings(const AutoScene& scene, const AutoRequest& request);
 
 // The speeds that a measurement is rounded to, so that two of them agree: powers of 2^(1/4).

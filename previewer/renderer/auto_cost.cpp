@@ -12,23 +12,23 @@ namespace {
 
 // Milliseconds a unit: the least of seven renders of each pass, on two cores of llvmpipe (docs/auto.md,
 // "What a unit costs").
-constexpr double k_frame_ms = 3.0;            // passes that do next to nothing, one by one
-constexpr double k_triangle_ms = 1.6e-4;      // through one view
-constexpr double k_shadow_texel_ms = 1.2e-6;  // of a light's shadow map
-constexpr double k_rsm_texel_ms = 2.0e-5;     // of a reflective one, with its running sums
-constexpr double k_pixel_ms = 1.0e-4;         // shaded by the camera, and composed
-constexpr double k_light_pixel_ms = 1.2e-4;   // lit by one light through one map
-constexpr double k_edge_triangle_ms = 4.2e-4; // at the several samples that smooth outlines
-constexpr double k_edge_pixel_ms = 1.5e-4;    // the same
-constexpr double k_map_ms = 0.05;             // a shadow map of a virtual light, whatever is in it
-constexpr double k_map_point_ms = 1.1e-4;     // a point in it
-constexpr double k_map_texel_ms = 2.0e-5;     // a texel of it
-constexpr double k_gather_ms = 2.0e-5;        // one virtual light in one pixel
-constexpr double k_bounced_pixel_ms = 4.0e-4; // blurred, and what is near gathered
-constexpr double k_next_point_ms = 5.0e-5;    // a point of surface lit by one light, for the next bounce
-constexpr double k_view_texel_ms = 6.0e-4;    // a texel of a reflective map judged by what the camera sees
-constexpr double k_sample_ms = 1.0e-5;        // technique rsm: a sample at a pixel, where it is interpolated
-constexpr double k_full_sample_ms = 2.5e-5;   // and where not
+constexpr double k_frame_ms = 3.0;             // passes that do next to nothing, one by one
+constexpr double k_triangle_ms = 1.6e-4;       // through one view
+constexpr double k_shadow_texel_ms = 1.2e-6;   // of a light's shadow map
+constexpr double k_rsm_texel_ms = 2.0e-5;      // of a reflective one, with its running sums
+constexpr double k_pixel_ms = 1.0e-4;          // shaded by the camera, and composed
+constexpr double k_light_pixel_ms = 1.2e-4;    // lit by one light through one map
+constexpr double k_edge_triangle_ms = 4.2e-4;  // at the several samples that smooth outlines
+constexpr double k_edge_pixel_ms = 1.5e-4;     // the same
+constexpr double k_map_ms = 0.05;              // a shadow map of a virtual light, whatever is in it
+constexpr double k_map_point_ms = 1.1e-4;      // a point in it
+constexpr double k_map_texel_ms = 2.0e-5;      // a texel of it
+constexpr double k_gather_ms = 2.0e-5;         // one virtual light in one pixel
+constexpr double k_bounced_pixel_ms = 4.0e-4;  // blurred, and what is near gathered
+constexpr double k_next_point_ms = 5.0e-5;     // a point of surface lit by one light, for the next bounce
+constexpr double k_view_texel_ms = 6.0e-4;     // a texel of a reflective map judged by what the camera sees
+constexpr double k_sample_ms = 1.0e-5;         // technique rsm: a sample at a pixel, where it is interpolated
+constexpr double k_full_sample_ms = 2.5e-5;    // and where not
 
 double squared(double value) {
     return value * value;
@@ -49,9 +49,9 @@ class Work {
 
 // Maps of virtual lights.
 struct Maps {
-    double count = 0.0;    // with shadow maps
-    double gathered = 0.0; // lights that a pixel gathers from
-    double next = 0.0;     // lights that points of surface are lit by, for lights of the next bounce
+    double count = 0.0;     // with shadow maps
+    double gathered = 0.0;  // lights that a pixel gathers from
+    double next = 0.0;      // lights that points of surface are lit by, for lights of the next bounce
 };
 
 Maps count_maps(const AutoScene& scene, const Settings& settings) {
@@ -117,8 +117,8 @@ std::vector<WorkItem> frame_work(const AutoScene& scene, const Settings& setting
     if (settings.direct_shadows == DirectShadows::ism) {
         const double size = settings.used_soft_shadow_size();
         const double maps = settings.used_shadow_samples() * sized;
-        work.add("points of soft shadows", maps * automatic_points(settings.used_soft_shadow_size(),
-                                                                    scene.depth_complexity),
+        work.add("points of soft shadows",
+                 maps * automatic_points(settings.used_soft_shadow_size(), scene.depth_complexity),
                  k_map_point_ms);
         work.add("maps of soft shadows", maps * squared(size), k_map_texel_ms);
     }
@@ -151,8 +151,8 @@ std::vector<WorkItem> frame_work(const AutoScene& scene, const Settings& setting
     if (maps.gathered > 0.0) {
         work.add("blur and near light", pixels, k_bounced_pixel_ms);
     }
-    work.add("light for the next bounce",
-             maps.next * automatic_points(32, scene.depth_complexity), k_next_point_ms);
+    work.add("light for the next bounce", maps.next * automatic_points(32, scene.depth_complexity),
+             k_next_point_ms);
     return work.take();
 }
 

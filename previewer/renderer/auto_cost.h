@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a frame costs, told beforehand: work of each kind counted from the scene and the settings, times what a
-// unit of it took on the machine where docs/auto.md measured it. Arithmetic without OpenGL.
+// What a frame costs, told beforehand: work of each kind counted from the scene and the settings, times what
+// a unit of it took on the machine where docs/auto.md measured it. Arithmetic without OpenGL.
 #pragma once
 
 #include <string_view>

@@ -23,7 +23,8 @@ struct KnobCurve {
     std::vector<KnobLevel> levels;  // falling quality
 };
 
-// Below this share of the light that the camera's frame holds, lights are drawn by what it sees (docs/auto.md).
+// Below this share of the light that counts for the camera (AutoScene::seen_share), lights are drawn by what
+// it sees (docs/auto.md).
 inline constexpr double k_little_seen = 0.25;
 
 // Of a technique: those that change its picture of this scene, each with its levels.

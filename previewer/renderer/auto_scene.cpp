@@ -44,9 +44,9 @@ struct Place {
 template <typename Visit>
 void for_each_triangle(const scene::Scene& scene, const scene::Pose& pose, Visit&& visit) {
     for (const scene::DrawInstance& draw : pose.draws) {
-        const glm::dmat4 world_from_model =
-            draw.skin == scene::k_none ? draw.world_from_model
-                                       : pose.world_from_node[static_cast<size_t>(draw.node)];
+        const glm::dmat4 world_from_model = draw.skin == scene::k_none
+                                                ? draw.world_from_model
+                                                : pose.world_from_node[static_cast<size_t>(draw.node)];
         for (const scene::Primitive& primitive : scene.meshes[static_cast<size_t>(draw.mesh)].primitives) {
             const auto corner = [&](size_t i) {
                 return glm::dvec3(world_from_model *
@@ -124,7 +124,8 @@ std::vector<double> moments(const scene::Scene& scene, bool animated) {
     for (int i = 0; i < count; ++i) {
         const double frame =
             scene.frames.start +
-            (count > 1 ? static_cast<double>(i) * (scene.frames.end - scene.frames.start) / (count - 1) : 0.0);
+            (count > 1 ? static_cast<double>(i) * (scene.frames.end - scene.frames.start) / (count - 1)
+                       : 0.0);
         times.push_back(scene::time_of_frame(scene.frames, frame));
     }
     return times;
@@ -220,8 +221,8 @@ void count_lights(const std::vector<scene::Pose>& poses, AutoScene& out) {
         }
         const scene::Light& light = first.lights[at];
         const bool planar =
-            light.type == scene::LightType::sun || (light.type == scene::LightType::spot &&
-                                                    light.cone_angle_rad <= k_widest_planar_cone_rad);
+            light.type == scene::LightType::sun ||
+            (light.type == scene::LightType::spot && light.cone_angle_rad <= k_widest_planar_cone_rad);
         const bool sized = light.cast_shadow && light_extent(instance, light) > 0.0;
         (planar ? out.planar_lights : out.cube_lights) += 1;
         (planar ? out.sized_planar : out.sized_cube) += sized ? 1 : 0;
@@ -257,8 +258,8 @@ AutoScene describe_scene(const scene::Scene& scene, int animation, const std::st
         out.depth_complexity =
             depth_complexity(area, 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x));
     }
-    out.seen_share = counting_share(scene, poses, spread_places(scene, poses.front(), area), area, camera,
-                                    width, height);
+    out.seen_share =
+        counting_share(scene, poses, spread_places(scene, poses.front(), area), area, camera, width, height);
     return out;
 }
 

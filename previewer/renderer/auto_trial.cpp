@@ -12,7 +12,7 @@ namespace bounce {
 namespace {
 
 constexpr int k_rounds = 6;
-constexpr int k_frames = 5;            // of a choice, after a warm-up
+constexpr int k_frames = 5;                // of a choice, after a warm-up
 constexpr double k_long_frame_ms = 500.0;  // of these one is enough: what disturbs it is short against it
 
 struct Tried {
@@ -35,7 +35,8 @@ double time_frames(Renderer& renderer, const Moment& moment, const Settings& set
     while (times.front() < k_long_frame_ms && times.size() < k_frames) {
         times.push_back(once());
     }
-    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
+                     times.end());
     return times[times.size() / 2];
 }
 

@@ -154,8 +154,8 @@ class Viewer {
         picture_changed_ |= drags || scrolls;
     }
 
-    // Settings for this scene and size, as long as those that were chosen before are still in use: what the user
-    // has changed stays.
+    // Settings for this scene and size, as long as those that were chosen before are still in use: what the
+    // user has changed stays.
     void choose_again() {
         if (!same_knobs(state_.settings, chosen_)) {
             return;
