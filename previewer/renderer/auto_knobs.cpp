@@ -81,7 +81,7 @@ std::vector<KnobCurve> knob_curves(const AutoScene& scene, Technique technique) 
         out.push_back({Knob::ism_size, {{128, 0.0}, {64, 3e-5, true}, {32, 2e-4}}});
         out.push_back({Knob::interleave, {{1, 0.0}, {2, 3e-4}, {4, 2e-3, true}, {8, 6e-3}}});
         if (scene.world() || scene.emitters) {
-            out.push_back({Knob::bounce_vpls, {{128, 0.0, true}, {64, 1e-4}, {32, 3e-4}, {16, 1e-3}}});
+            out.push_back({Knob::bounce_vpls, {{128, 0.0, true}, {64, 2e-5}, {32, 8e-5}, {16, 1.5e-4}}});
         }
     }
     return out;
