@@ -14,6 +14,10 @@ namespace {
 constexpr int k_off = 0;
 constexpr int k_on = 1;
 
+// Where little of the light counts for what is seen, every step costs so many times as much: the ratio of the
+// colonnade's steps to the others'.
+constexpr double k_little_factor = 4.0;
+
 // Errors are of docs/auto.md, "What a step costs": 96x54, the six examples.
 
 KnobCurve vpl_curve() {
@@ -26,13 +30,13 @@ KnobCurve importance_curve(const AutoScene& scene) {
     const bool little = scene.seen_share < k_little_seen;
     return {Knob::importance,
             {{static_cast<int>(Importance::view), 0.0, little},
-             {static_cast<int>(Importance::flux), little ? 2.5e-2 : 2e-4, !little}}};
+             {static_cast<int>(Importance::flux), little ? 8e-3 : 2e-4, !little}}};
 }
 
 KnobCurve shadow_curve(const AutoScene& scene) {
     // A sun's map is as wide as the scene; a lamp's as its cone.
     const bool wide = scene.features.sun_lights > 0 && scene.seen_share < k_little_seen;
-    return wide ? KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 6e-3}, {512, 2e-2}, {256, 1e-1}}}
+    return wide ? KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 1.7e-3}, {512, 5e-3}, {256, 2.8e-2}}}
                 : KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 3e-5}, {512, 1e-4}, {256, 2e-4}}};
 }
 
@@ -84,22 +88,29 @@ std::vector<KnobCurve> knob_curves(const AutoScene& scene, Technique technique) 
             out.push_back({Knob::bounce_vpls, {{128, 0.0, true}, {64, 2e-5}, {32, 8e-5}, {16, 1.5e-4}}});
         }
     }
+    if (scene.seen_share < k_little_seen) {
+        for (KnobCurve& curve : out) {
+            for (KnobLevel& level : curve.levels) {
+                level.error *= k_little_factor;
+            }
+        }
+    }
     return out;
 }
 
 double least_error(const AutoScene& scene, Technique technique) {
     const bool little = scene.seen_share < k_little_seen;
-    const double exact = little ? 1e-2 : 3e-3;
+    const double exact = little ? 3e-2 : 3e-3;
     if (!scene.lit() || !scene.features.reflects) {
         return exact;
     }
     switch (technique) {
         case Technique::direct:
-            return 7e-2;
+            return little ? 2e-1 : 7e-2;
         case Technique::rsm:
             // Nothing hides its light, and mirrors and metals show none of it: from as good as the best
             // (cornell) to worse than none (u_room).
-            return 3e-2;
+            return little ? 6e-2 : 3e-2;
         case Technique::ism:
             break;
     }
