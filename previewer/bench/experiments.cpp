@@ -109,6 +109,9 @@ const std::vector<Experiment>& experiments() {
         {"invariance", "Pictures of scenes told in other numbers",
          "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes make",
          measure_invariance, true},
+        {"auto", "Preset auto within a time a frame",
+         "time and error of preset auto within --budgets against every other preset's; takes many scenes",
+         measure_auto_budgets, true},
     };
     return all;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/bench_report.h"
@@ -34,16 +35,21 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
+    // auto: times a frame, and the picture's size for each, or for all.
+    std::vector<double> budgets_ms{33.0, 100.0, 250.0};
+    std::vector<std::pair<int, int>> sizes;
+    std::string
+        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
 
 struct BenchInputs {
-    const scene::Scene& scene;  // the first of them
-    std::span<const scene::Scene> scenes;
+    const scene::Scene& scene;
     const BenchOptions& options;
     gl::TimingMode timing;
     const InterruptGuard& interrupts;
+    std::span<const scene::Scene> scenes;  // all that were given; the first is `scene`
 
     // The frame that was asked for, or the scene's first.
     [[nodiscard]] double frame() const { return frame_of(scene); }
@@ -76,6 +82,7 @@ void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report
 void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
+void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
 void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
 void measure_furnace(const BenchInputs& inputs, BenchReport& report);
@@ -90,7 +97,7 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
-    bool many_scenes = false;  // takes more than one
+    bool many_scenes = false;  // otherwise one
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

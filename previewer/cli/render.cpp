@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/auto_options.h"
 #include "cli/commands.h"
 #include "cli/converge_options.h"
 #include "cli/frame_list.h"
@@ -211,7 +212,8 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     const scene::Scene& scene = loaded.scene;
     warn_of_unsupported(scene);
-    Settings settings = arguments.render.settings(scene);
+    AutoUse automatic = choose_automatically(arguments.render, scene, arguments.converge.frame_target());
+    Settings settings = automatic.used ? automatic.choice.settings : arguments.render.settings(scene);
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
@@ -219,6 +221,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     check_view(arguments, scene.view, settings);
     arguments.converge.check(settings);
+    check_targets(arguments.render, arguments.converge);
     if (arguments.converge.converge && arguments.removed) {
         throw usage_error("--measure-removed is of a single frame; give no --converge beside it");
     }
@@ -242,11 +245,22 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     glFinish();
     start.upload_ms = uploading.ms();
     renderer.expect_frames(frames.size() > 1);
+    if (automatic.needs_trial()) {
+        try_automatic(renderer, scene, arguments.render, animation, frames.front(), automatic);
+        settings = automatic.choice.settings;
+        require_within(device.limits, settings);
+    }
+    if (arguments.render.explain) {
+        print_choice(automatic);
+    }
     if (arguments.render.memory_limit_mib) {
         settings = fitted(renderer, scene, arguments, frames, animation, settings);
     }
     const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
+    if (automatic.used) {
+        stats.chosen(automatic_json(automatic));
+    }
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
     int written = 0;

@@ -265,6 +265,9 @@ void StatsFile::write(const std::filesystem::path& path) const {
                       {"upload_ms", start_.upload_ms},
                       {"first_frame_ms", start_.first_frame_ms}};
     out["settings"] = settings_json(settings_);
+    if (!automatic_.is_null()) {
+        out["auto"] = automatic_;
+    }
     out["frames"] = ordered_json::array();
     for (const FrameStats& frame : frames_) {
         out["frames"].push_back(frame_json(frame, settings_.width * settings_.height));
