@@ -100,6 +100,9 @@ const std::vector<Experiment>& experiments() {
         {"vpl-sampling", "Samplers of virtual point lights",
          "time, mean, flicker and error of each --vpl-sampling (Table 2, Figures 6 to 8 of 2013)",
          measure_vpl_sampling},
+        {"stress", "Stiff and extreme scenes",
+         "whether each of some sixty generated scenes comes out as it must; ends with 1 where one does not",
+         measure_stress, true},
     };
     return all;
 }

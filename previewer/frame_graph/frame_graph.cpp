@@ -50,11 +50,12 @@ TextureHandle FrameGraph::import_texture(const std::string& name, const gl::Text
     return {add_version(static_cast<int>(resources_.size()) - 1)};
 }
 
-BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer) {
+BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words) {
     Resource resource;
     resource.name = name;
     resource.is_texture = false;
     resource.bytes = buffer.bytes();
+    resource.words = words;
     resource.imported_buffer = &buffer;
     resources_.push_back(std::move(resource));
     return {add_version(static_cast<int>(resources_.size()) - 1)};
@@ -64,25 +65,28 @@ void FrameGraph::keep(TextureHandle handle, gl::Texture& into) {
     resources_[at(resource_of_version_[at(handle.version)])].kept = &into;
 }
 
-TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc) {
+TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc,
+                                          const PackedFloats& packed) {
     FrameGraph::Resource resource;
     resource.name = name;
     resource.desc = desc;
+    resource.packed = packed;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare(pass_, version);
+    graph_.declare_created(pass_, version);
     graph_.dependencies_.write(pass_, version);
     return {version};
 }
 
-BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes) {
+BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes, const FloatWords& words) {
     FrameGraph::Resource resource;
     resource.name = name;
     resource.is_texture = false;
     resource.bytes = bytes;
+    resource.words = words;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare(pass_, version);
+    graph_.declare_created(pass_, version);
     graph_.dependencies_.write(pass_, version);
     return {version};
 }
@@ -99,9 +103,15 @@ BufferHandle PassBuilder::read(BufferHandle handle) {
     return handle;
 }
 
+void FrameGraph::declare_created(int pass, int version) {
+    const int resource = declare(pass, version);
+    passes_[at(pass)].written.push_back(resource);
+}
+
 // A new version of what `version` stands for.
 int FrameGraph::declare_write(int pass, int version) {
     const int resource = declare(pass, version);
+    passes_[at(pass)].written.push_back(resource);
     dependencies_.read(pass, version);
     const int next = add_version(resource);
     dependencies_.write(pass, next);
@@ -141,11 +151,32 @@ void FrameGraph::find_lifetimes(const std::vector<bool>& live) {
     }
 }
 
-void FrameGraph::acquire(Resource& resource) {
+void FrameGraph::acquire(Resource& resource, bool zeroed) {
     if (!resource.is_texture && resource.imported_buffer == nullptr) {
         resource.buffer = pool_.acquire_buffer(resource.name, resource.bytes);
+        if (zeroed) {
+            resource.buffer.clear_to_zero();
+        }
     } else if (resource.is_texture && resource.imported == nullptr) {
         resource.texture = pool_.acquire_texture(resource.name, resource.desc);
+        if (zeroed) {
+            resource.texture.clear_to_zero();
+        }
+    }
+}
+
+void FrameGraph::show(const Pass& pass, PassObserver& observer) const {
+    for (const int index : pass.written) {
+        const Resource& resource = resources_[at(index)];
+        if (resource.is_texture) {
+            observer.wrote(pass.name, resource.name,
+                           resource.imported != nullptr ? *resource.imported : resource.texture,
+                           resource.packed);
+        } else {
+            observer.wrote(pass.name, resource.name,
+                           resource.imported_buffer != nullptr ? *resource.imported_buffer : resource.buffer,
+                           resource.words);
+        }
     }
 }
 
@@ -197,7 +228,7 @@ class FrameGraph::ReleaseAtEnd {
     FrameGraph& graph_;
 };
 
-void FrameGraph::execute(gl::PassTimer& timer) {
+void FrameGraph::execute(gl::PassTimer& timer, PassObserver* observer) {
     const ReleaseAtEnd release_at_end(*this);
     const std::vector<bool> live = dependencies_.live_passes();
     find_lifetimes(live);
@@ -209,7 +240,7 @@ void FrameGraph::execute(gl::PassTimer& timer) {
         }
         for (Resource& resource : resources_) {
             if (resource.first_use == static_cast<int>(pass)) {
-                acquire(resource);
+                acquire(resource, observer != nullptr);
             }
         }
         if (passes_[pass].condition && !passes_[pass].condition()) {
@@ -222,6 +253,9 @@ void FrameGraph::execute(gl::PassTimer& timer) {
             }
             gl::throw_on_debug_error(name);
             executed_.push_back(name);
+            if (observer != nullptr) {
+                show(passes_[pass], *observer);
+            }
         }
         for (Resource& resource : resources_) {
             if (resource.last_use == static_cast<int>(pass)) {

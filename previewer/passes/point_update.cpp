@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 
 namespace {
@@ -34,8 +36,8 @@ void add_seals(const PassContext& context, gpu::PointStore& store) {
 }  // namespace
 
 ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
-    ScenePoints out{graph.import_buffer("points", store.points()),
-                    graph.import_buffer("large triangles", store.triangles())};
+    ScenePoints out{graph.import_buffer("points", store.points(), k_point_floats),
+                    graph.import_buffer("large triangles", store.triangles(), k_all_floats)};
     if (!store.any_changed()) {
         return out;
     }

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "passes/finite_check.h"
 #include "renderer/avg_layout.h"
 #include "renderer/bounce_places.h"
 #include "renderer/imperfect_setup.h"
@@ -164,6 +165,17 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
     }
     return seen_regions(boxes, gpu::draw_box(scene.bounds(), scene.space()), camera.clip_from_render,
                         camera.render_from_clip);
+}
+
+// What a run can be repeated with, beside the settings.
+void throw_on_fault(const std::string& fault, const scene::Scene& scene, const scene::Pose& pose,
+                    uint32_t seed) {
+    if (!fault.empty()) {
+        throw Error(ExitCode::failed,
+                    fmt::format("{}; scene {}, time {:g} s (frame {:g}), seed {}", fault,
+                                scene.name.empty() ? "without a name" : scene.name, pose.time_s,
+                                scene.frames.start + pose.time_s * scene.frames.fps, seed));
+    }
 }
 
 passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) {
@@ -797,11 +809,18 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.removed.emplace();
     }
 
+    std::optional<passes::FiniteCheck> check;
+    if (settings.check_finite) {
+        check.emplace(programs_, settings.width, settings.height);
+    }
     if (plan.deform) {
         timer.begin("deform");
         passes::run_deform(programs_, gpu_scene_);
         timer.end();
         gl::throw_on_debug_error("deform");
+        if (check) {
+            check->wrote("deform", "vertex positions", gpu_scene_.vertices().positions(), k_all_floats);
+        }
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);
@@ -845,7 +864,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
                 .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
                 .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
-    graph.execute(timer);
+    graph.execute(timer, check ? &*check : nullptr);
+    if (check) {
+        throw_on_fault(check->fault(), scene_, pose, choice.seed);
+    }
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
@@ -872,6 +894,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                                   ? static_cast<double>(reused_pixels.reused) / reused_pixels.surfaces
                                   : 0.0;
     }
+    gl::throw_on_lost_context();
     pool_.end_frame();
     report.passes = timer.collect();
     return report;
