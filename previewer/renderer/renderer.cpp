@@ -167,6 +167,10 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
                         camera.render_from_clip);
 }
 
+bool is_black(const Image& picture) {
+    return std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float value) { return value == 0.0F; });
+}
+
 // What a run can be repeated with, beside the settings.
 void throw_on_fault(const std::string& fault, const scene::Scene& scene, const scene::Pose& pose,
                     uint32_t seed) {
@@ -888,6 +892,9 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
     if (!anything_seen && !pose.draws.empty()) {
         report.notes.emplace_back("the camera sees no surface of the scene");
+    }
+    if (settings.find_unlit && report.notes.empty() && shows_light(settings.show) && is_black(read_color())) {
+        report.notes.emplace_back("the picture is black: no light reaches what the camera sees of the scene");
     }
     if (report.reuse && settings.count_gathered_pixels) {
         report.reuse->share = reused_pixels.surfaces > 0

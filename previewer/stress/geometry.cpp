@@ -28,6 +28,9 @@ Geometry Geometry::turned_inside_out() const {
     for (size_t i = 0; i + 2 < out.indices.size(); i += 3) {
         std::swap(out.indices[i + 1], out.indices[i + 2]);
     }
+    for (glm::vec3& normal : out.normals) {
+        normal = -normal;
+    }
     return out;
 }
 

@@ -81,7 +81,9 @@ Verdict one_millimetre_above(StressRun& run) {
 Verdict in_the_ground(StressRun& run) {
     SceneFile file = above_ground(2.0);
     file.light(point(100.0), at({0.0, 0.0, 0.0}));
-    return black_with_note(run.draw(file));
+    SceneFile above = above_ground(2.0);
+    above.light(point(100.0), at({0.0, 1.0, 0.0}));
+    return at_most(run.draw(file), run.draw(above), 1e-4);
 }
 
 Verdict ball_on_the_ground(StressRun& run) {
@@ -142,8 +144,11 @@ Verdict needle_spot(StressRun& run) {
 Verdict half_space_spot(StressRun& run) {
     SceneFile file = above_ground(2.0);
     file.light(spot(100.0, pi), at({0.0, 1.0, 0.0}));
-    const Image expected = lit_ground(
-        2.0, [](double east, double south) { return of_point(100.0 / (4.0 * pi), 1.0, east, south); });
+    // A spot of Blender 3 dims by the cosine to its axis.
+    const Image expected = lit_ground(2.0, [](double east, double south) {
+        const double cosine = 1.0 / std::sqrt(1.0 + east * east + south * south);
+        return of_point(100.0 / (4.0 * pi) * cosine, 1.0, east, south);
+    });
     return same(run.draw(file).image, expected, {0.02, 0.01});
 }
 
@@ -168,11 +173,7 @@ Verdict level_sun(StressRun& run) {
 Verdict area_without_size(StressRun& run) {
     SceneFile none = above_ground(2.0);
     none.light(area(40.0, 0.0), at({0.0, 1.0, 0.0}));
-    const Image expected = lit_ground(2.0, [](double east, double south) {
-        const double distance = std::sqrt(east * east + south * south + 1.0);
-        return of_point(10.0 / distance, 1.0, east, south);
-    });
-    return same(run.draw(none).image, expected, {0.02, 0.01});
+    return black_with_note(run.draw(none));
 }
 
 Verdict area_without_end(StressRun& run) {
@@ -213,7 +214,7 @@ std::vector<StressCase> light_cases() {
     return {
         {"point light 1 mm above the ground", "its formula at each pixel: 2 % of grazing rounding, mean 1 %",
          one_millimetre_above},
-        {"point light in the ground", "black, with a note: no cosine is left", in_the_ground},
+        {"point light in the ground", "at most 1e-4 of what it gives a metre above: rounding leaves it a cosine", in_the_ground},
         {"ball of light touching the ground", "as a tenth of a millimetre higher: worst 3 %, mean 1 %",
          ball_on_the_ground},
         {"area light 1 mm above the ground", "its radiance times the albedo: 2 %, mean 1 %",
@@ -228,7 +229,7 @@ std::vector<StressCase> light_cases() {
         {"spot of 0 degrees", "black, with a note", closed_spot},
         {"sun from below the ground", "black, with a note", sun_from_below},
         {"sun along the ground", "black, with a note", level_sun},
-        {"area light of no size", "a point with a cosine: 2 %, mean 1 %", area_without_size},
+        {"area light of no size", "black, with a note: to Cycles it has no surface to send light from", area_without_size},
         {"area light of 10 km", "its radiance times the albedo: 2 %, mean 1 %", area_without_end},
         {"point light of a node scaled to 0", "as without the scale: 2 %, mean 1 %", scaled_light},
         {"1,024 lights (small: 64)", "the sum of their formulas: 2 %, mean 1 %", many_lights},

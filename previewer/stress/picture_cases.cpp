@@ -93,10 +93,21 @@ Verdict no_camera(StressRun& run) {
 }
 
 Verdict camera_in_a_mesh(StressRun& run) {
-    SceneFile dark = even_scene();
-    dark.place(box({-0.5F, 0.5F, -0.5F}, {0.5F, 1.5F, 0.5F}), 0);
-    dark.camera({0.0, 1.0, 0.0}, {0.2, 0.6, 0.1});
-    return black_with_note(run.draw(dark));
+    const auto scene = [](bool closed) {
+        SceneFile file;
+        file.place(ground(4.0F), file.material(glm::vec3(0.6F)));
+        file.light({{"type", "sun"}, {"irradiance_w_m2", pi}, {"angle_rad", 0}},
+                   looking({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}));
+        if (closed) {
+            file.place(box({-0.5F, 0.5F, -0.5F}, {0.5F, 1.5F, 0.5F}), 0);
+        }
+        file.camera({0.0, 1.0, 0.0}, {0.2, 0.4, 0.1});
+        return file;
+    };
+    Settings direct = StressRun::settings();
+    direct.technique = Technique::direct;
+    const Picture lit = run.draw(scene(false));
+    return both(black_with_note(run.draw(scene(true), direct)), at_most(run.draw(scene(true)), lit, 0.01));
 }
 
 Verdict camera_on_a_surface(StressRun& run) {
@@ -131,7 +142,7 @@ std::vector<StressCase> picture_cases() {
         {"a world alone", "its radiance: 0.1 %", empty_world},
         {"no light", "black, with a note", no_light},
         {"no camera", "the ground in the middle, within 3 %, and the world around it", no_camera},
-        {"a camera in a closed mesh", "black, with a note", camera_in_a_mesh},
+        {"a camera in a closed mesh", "direct light black, with a note; bounced at most 1 % of the light without it", camera_in_a_mesh},
         {"a camera cut by the ground", "the world above the horizon: 0.1 %", camera_on_a_surface},
         {"a light and no mesh", "black, with a note", without_meshes_but_a_light},
     };
