@@ -40,6 +40,7 @@ struct BenchOptions {
     std::vector<std::pair<int, int>> sizes;
     std::string
         references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;        // stress: cases whose names hold this
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
@@ -87,6 +88,7 @@ void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
 void measure_furnace(const BenchInputs& inputs, BenchReport& report);
 void measure_invariance(const BenchInputs& inputs, BenchReport& report);
+void measure_stress(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
 // experiments take of memory. Empty where it is.
@@ -98,6 +100,7 @@ struct Experiment {
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
     bool many_scenes = false;  // otherwise one
+    bool must_meet_checks = false;  // the program ends with 1 where one of its checks is not met
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -41,6 +42,7 @@ struct Arguments {
     int repeat = 1;
     bool pass_times = true;
     bool removed = false;
+    bool check_finite = false;
     SceneSourceOptions source;
     RenderOptions render;
     ViewOptions view;
@@ -99,6 +101,18 @@ void check_view(const Arguments& arguments, const scene::ViewSettings& view, con
     }
     (void)arguments.view.checked_over(
         {view.display_device, view.view_transform, view.look, view.exposure, view.gamma});
+}
+
+// A picture with holes is written all the same, for compare to find, but not silently.
+void warn_of_not_finite(const Image& image, int frame) {
+    size_t faulty = 0;
+    for (size_t i = 0; i < image.rgb.size(); i += 3) {
+        faulty += std::isfinite(image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2]) ? 0 : 1;
+    }
+    if (faulty > 0) {
+        log::warning("frame {}: {} pixels are not finite; --check-finite says in which pass they begin",
+                     frame, faulty);
+    }
 }
 
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
@@ -214,6 +228,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     warn_of_unsupported(scene);
     AutoUse automatic = choose_automatically(arguments.render, scene, arguments.converge.frame_target());
     Settings settings = automatic.used ? automatic.choice.settings : arguments.render.settings(scene);
+    settings.check_finite = arguments.check_finite;
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
@@ -295,7 +310,9 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
                                                    : renderer.read_color();
         const size_t faulty =
             measured.converged ? measured.converged->faulty_pixels : picture.faulty_pixels();
-        if (faulty > 0) {
+        if (faulty == 0) {
+            warn_of_not_finite(image, frame);
+        } else {
             log::warning("frame {}: {} pixels are not finite, since one of their {} samples is not", frame,
                          faulty, measured.converged ? measured.converged->state.passes : settings.samples);
         }
@@ -359,6 +376,10 @@ void add_render(CLI::App& app, Run& run) {
     command->add_flag(
         "--measure-removed", arguments->removed,
         "With --stats: also how much of the indirect light bounding the lights' kernels takes away");
+    command->add_flag(
+        "--check-finite", arguments->check_finite,
+        "Search what each pass writes for NaN and infinities; where there are any, end with the "
+        "pass and the pixel instead of writing the frame");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     arguments->render.add_still_to(*command);

@@ -51,12 +51,13 @@ TextureHandle FrameGraph::import_texture(const std::string& name, const gl::Text
     return {add_version(static_cast<int>(resources_.size()) - 1)};
 }
 
-BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer,
+BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words,
                                        const ContentKey& content) {
     Resource resource;
     resource.name = name;
     resource.is_texture = false;
     resource.bytes = buffer.bytes();
+    resource.words = words;
     resource.imported_buffer = &buffer;
     resources_.push_back(std::move(resource));
     const int version = add_version(static_cast<int>(resources_.size()) - 1);
@@ -68,26 +69,29 @@ void FrameGraph::keep(TextureHandle handle, gl::Texture& into) {
     resources_[at(resource_of_version_[at(handle.version)])].kept = &into;
 }
 
-TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc) {
+TextureHandle PassBuilder::create_texture(const std::string& name, const gl::TextureDesc& desc,
+                                          const PackedFloats& packed) {
     FrameGraph::Resource resource;
     resource.name = name;
     resource.desc = desc;
+    resource.packed = packed;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare(pass_, version);
+    graph_.declare_created(pass_, version);
     graph_.dependencies_.write(pass_, version);
     graph_.passes_[at(pass_)].writes.push_back(version);
     return {version};
 }
 
-BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes) {
+BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes, const FloatWords& words) {
     FrameGraph::Resource resource;
     resource.name = name;
     resource.is_texture = false;
     resource.bytes = bytes;
+    resource.words = words;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare(pass_, version);
+    graph_.declare_created(pass_, version);
     graph_.dependencies_.write(pass_, version);
     graph_.passes_[at(pass_)].writes.push_back(version);
     return {version};
@@ -107,9 +111,15 @@ BufferHandle PassBuilder::read(BufferHandle handle) {
     return handle;
 }
 
+void FrameGraph::declare_created(int pass, int version) {
+    const int resource = declare(pass, version);
+    passes_[at(pass)].written.push_back(resource);
+}
+
 // A new version of what `version` stands for.
 int FrameGraph::declare_write(int pass, int version) {
     const int resource = declare(pass, version);
+    passes_[at(pass)].written.push_back(resource);
     dependencies_.read(pass, version);
     const int next = add_version(resource);
     dependencies_.write(pass, next);
@@ -235,7 +245,7 @@ std::vector<bool> FrameGraph::live_without_kept(const std::vector<bool>& live, K
     return out;
 }
 
-void FrameGraph::acquire(Resource& resource) {
+void FrameGraph::acquire(Resource& resource, bool zeroed) {
     if (resource.kept_before && resource.is_texture) {
         resource.texture = std::move(kept_->take_texture(resource.key).value());
         return;
@@ -246,8 +256,29 @@ void FrameGraph::acquire(Resource& resource) {
     }
     if (!resource.is_texture && resource.imported_buffer == nullptr) {
         resource.buffer = pool_.acquire_buffer(resource.name, resource.bytes);
+        if (zeroed) {
+            resource.buffer.clear_to_zero();
+        }
     } else if (resource.is_texture && resource.imported == nullptr) {
         resource.texture = pool_.acquire_texture(resource.name, resource.desc);
+        if (zeroed) {
+            resource.texture.clear_to_zero();
+        }
+    }
+}
+
+void FrameGraph::show(const Pass& pass, PassObserver& observer) const {
+    for (const int index : pass.written) {
+        const Resource& resource = resources_[at(index)];
+        if (resource.is_texture) {
+            observer.wrote(pass.name, resource.name,
+                           resource.imported != nullptr ? *resource.imported : resource.texture,
+                           resource.packed);
+        } else {
+            observer.wrote(pass.name, resource.name,
+                           resource.imported_buffer != nullptr ? *resource.imported_buffer : resource.buffer,
+                           resource.words);
+        }
     }
 }
 
@@ -360,7 +391,7 @@ FrameGraph::Forecast FrameGraph::forecast(bool keeps, bool holds) {
     return out;
 }
 
-void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept) {
+void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept, PassObserver* observer) {
     kept_ = kept != nullptr && kept->on() ? kept : nullptr;
     const ReleaseAtEnd release_at_end(*this);
     const std::vector<bool> needed = dependencies_.live_passes();
@@ -379,7 +410,7 @@ void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept) {
         }
         for (Resource& resource : resources_) {
             if (resource.first_use == static_cast<int>(pass)) {
-                acquire(resource);
+                acquire(resource, observer != nullptr);
             }
         }
         if (passes_[pass].condition && !ignore_conditions_ && !passes_[pass].condition()) {
@@ -392,6 +423,9 @@ void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept) {
             }
             gl::throw_on_debug_error(name);
             executed_.push_back(name);
+            if (observer != nullptr) {
+                show(passes_[pass], *observer);
+            }
         }
         for (Resource& resource : resources_) {
             if (resource.last_use == static_cast<int>(pass)) {

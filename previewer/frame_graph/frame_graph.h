@@ -5,6 +5,7 @@
 // last use and come from a pool.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,6 +30,33 @@ using BufferHandle = Handle<gl::Buffer>;
 
 class FrameGraph;
 
+// Which 32-bit words of a buffer's elements are floats: word i of an element of `stride` words where bit i is
+// set. Without a stride nothing is known of the buffer.
+struct FloatWords {
+    int stride = 0;
+    uint64_t floats = 0;
+};
+inline constexpr FloatWords k_all_floats{1, 1};
+
+// Which parts of a texel of whole numbers hold floats: channel i where bit i of `floats` is set, and of its
+// two 16-bit halves the lower where bit 2 i of `halves` is, the upper where the next is.
+struct PackedFloats {
+    uint32_t floats = 0;
+    uint32_t halves = 0;
+    [[nodiscard]] bool any() const { return floats != 0 || halves != 0; }
+};
+
+// Looks at what passes leave behind, between them. Textures and buffers of the graph hold zeros before their
+// first pass where an observer is there: what no pass has written is then no fault of any.
+class PassObserver {
+  public:
+    virtual ~PassObserver() = default;
+    virtual void wrote(const std::string& pass, const std::string& resource, const gl::Texture& texture,
+                       const PackedFloats& packed) = 0;
+    virtual void wrote(const std::string& pass, const std::string& resource, const gl::Buffer& buffer,
+                       const FloatWords& words) = 0;
+};
+
 // What an executing pass may touch: exactly what its setup declared.
 class PassResources {
   public:
@@ -50,8 +78,10 @@ using Execute = std::function<void(const PassResources&)>;
 // Given to a pass's setup.
 class PassBuilder {
   public:
-    [[nodiscard]] TextureHandle create_texture(const std::string& name, const gl::TextureDesc& desc);
-    [[nodiscard]] BufferHandle create_buffer(const std::string& name, size_t bytes);
+    [[nodiscard]] TextureHandle create_texture(const std::string& name, const gl::TextureDesc& desc,
+                                               const PackedFloats& packed = {});
+    [[nodiscard]] BufferHandle create_buffer(const std::string& name, size_t bytes,
+                                             const FloatWords& words = {});
     TextureHandle read(TextureHandle handle);
     BufferHandle read(BufferHandle handle);
     // Changes what is there (reads and writes); returns the new version.
@@ -80,14 +110,16 @@ class FrameGraph {
     // A texture that outlives the frame. Writing it is a side effect.
     TextureHandle import_texture(const std::string& name, const gl::Texture& texture);
     // A buffer that outlives the frame as a cache: unlike a texture's, writing it keeps no pass alive.
-    // content: what is in it; unknown: passes that read it run in each frame.
-    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const ContentKey& content = {});
+    // words: which of its words are floats. content: what is in it; unknown: passes that read it run in each
+    // frame.
+    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words = {},
+                               const ContentKey& content = {});
 
     // setup(PassBuilder&) declares and returns the function that draws.
     template <typename Setup>
     void add_pass(const std::string& name, Setup&& setup) {
         const int pass = dependencies_.add_pass(name);
-        passes_.push_back({name, {}, {}, condition_, {}, {}, {}});
+        passes_.push_back({name, {}, {}, {}, condition_, {}, {}, {}});
         PassBuilder builder(*this, pass);
         passes_.back().execute = setup(builder);
     }
@@ -102,7 +134,8 @@ class FrameGraph {
 
     // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept:
     // what earlier frames made, and where this one's goes; null: every live pass runs.
-    void execute(gl::PassTimer& timer, KeptContents* kept = nullptr);
+    // observer: told of each texture and buffer that a pass has written, right after it; null: none.
+    void execute(gl::PassTimer& timer, KeptContents* kept = nullptr, PassObserver* observer = nullptr);
     // What execute() would do where every condition held, without doing it: the names of the passes that
     // would run, and how much is allocated at once, bytes, in an empty pool. keeps: all that is worth keeping
     // is kept. holds: TransientPool::hold_idle().
@@ -133,6 +166,8 @@ class FrameGraph {
         bool is_texture = true;
         gl::TextureDesc desc;
         size_t bytes = 0;
+        FloatWords words;
+        PackedFloats packed;
         const gl::Texture* imported = nullptr;
         gl::Buffer* imported_buffer = nullptr;
         gl::Texture texture;
@@ -149,6 +184,7 @@ class FrameGraph {
         std::string name;
         Execute execute;
         std::vector<int> resources;  // declared, by resource (not version)
+        std::vector<int> written;    // of these
         std::function<bool()> condition;
         std::vector<int> reads, writes;  // versions
         ContentKey decided_by;
@@ -156,11 +192,13 @@ class FrameGraph {
 
     int add_version(int resource);
     int declare(int pass, int version);
+    void declare_created(int pass, int version);
     int declare_write(int pass, int version);
     void find_lifetimes(const std::vector<bool>& live);
     void find_contents(const std::vector<bool>& live);
     [[nodiscard]] std::vector<bool> live_without_kept(const std::vector<bool>& live, KeptContents& kept);
-    void acquire(Resource& resource);
+    void acquire(Resource& resource, bool zeroed);
+    void show(const Pass& pass, PassObserver& observer) const;
     void release(Resource& resource);
 
     TransientPool& pool_;

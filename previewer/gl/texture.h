@@ -27,6 +27,12 @@ struct TextureDesc {
 // Of all levels, layers and samples; the driver's own overhead is not in it.
 [[nodiscard]] size_t storage_bytes(const TextureDesc& desc);
 
+// How texels are read and cleared: as depths, as whole numbers or as values with a fraction.
+enum class TexelKind { depth, integer, real };
+[[nodiscard]] TexelKind texel_kind(GLenum format);
+// Real texels that can hold something that is not finite.
+[[nodiscard]] bool holds_floats(GLenum format);
+
 // Immutable storage. Sampling is nearest and clamps to the edge.
 class Texture {
   public:
@@ -41,6 +47,8 @@ class Texture {
     void bind_image(GLuint unit, GLenum access) const {
         glBindImageTexture(unit, id(), 0, desc_.layers > 0 ? GL_TRUE : GL_FALSE, 0, access, desc_.format);
     }
+
+    void clear_to_zero();
 
   private:
     Object<delete_texture> object_;

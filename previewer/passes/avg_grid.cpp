@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 namespace {
 
@@ -105,9 +107,11 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         grid.cells = builder.write(grid.cells);
         list.tiles = builder.write(list.tiles);
         list.counts = builder.write(list.counts);
-        grid.rows = builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float));
+        grid.rows =
+            builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float), k_all_floats);
         sums = builder.create_buffer("avg sums", capacity * AVG_SUM_WORDS * sizeof(GLuint));
-        grid.surfaces = builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel));
+        grid.surfaces =
+            builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel), k_avg_voxel_floats);
         builder.decided_by(decides);
         return [context, grid, list, sums, size, rows](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_sampling.h"
 
 namespace bounce::passes {
@@ -33,7 +34,8 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
     if (before != nullptr) {
         graph.add_pass("avg flux", [&](PassBuilder& builder) {
             builder.read(before->vpls);
-            sums = builder.create_buffer("avg flux", static_cast<size_t>(before->maps) * sizeof(float));
+            sums = builder.create_buffer("avg flux", static_cast<size_t>(before->maps) * sizeof(float),
+                                         k_all_floats);
             builder.decided_by(content(context, *before));
             return [context, before = *before, sums](const PassResources& resources) {
                 gl::Defines defines;
@@ -60,7 +62,8 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
             builder.read(before->vpls);
             builder.read(sums);
         }
-        out.vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
+        out.vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl),
+                                         k_vpl_floats);
         ContentHash hash;
         hash.add(content(context, inputs.grid.uniforms)).add(content(context, layout));
         hash.add(inputs.hits).add(inputs.paths).add(inputs.sequences).add(inputs.bounce).add(inputs.glossy);

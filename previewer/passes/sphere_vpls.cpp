@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/sphere_vpls.h"
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_choice.h"
 
 namespace bounce::passes {
@@ -29,7 +30,8 @@ VplSet add_vpls_from_sphere(FrameGraph& graph, const PassContext& context, const
     graph.add_pass("sphere vpls", [&](PassBuilder& builder) {
         builder.read(set.vpls);
         builder.read(choices);
-        out = builder.create_buffer("world lights", static_cast<size_t>(set.maps) * sizeof(gpu::GpuVpl));
+        out = builder.create_buffer("world lights", static_cast<size_t>(set.maps) * sizeof(gpu::GpuVpl),
+                                    k_vpl_floats);
         builder.decided_by(
             ContentHash().add(map.content).add(content(context, set)).add(chosen_a_subset).key());
         return [context, map, set, chosen_a_subset, choices, out](const PassResources& resources) {

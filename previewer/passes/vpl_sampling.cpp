@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_choice.h"
 #include "passes/vpl_map_source.h"
 
@@ -35,7 +36,8 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
             builder.read(tables.buffers.texels);
             if (mapped) builder.read(importance);
         }
-        vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
+        vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl),
+                                     k_vpl_floats);
         builder.decided_by(
             hash_of(sources).add(content(context, layout)).add(sampling).add(mapped).add(chosen).key());
         return [context, sources, layout, rows = rows_of(sources), tables, vpls, uniform, chosen, mapped,

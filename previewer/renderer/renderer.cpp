@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "passes/finite_check.h"
 #include "renderer/avg_layout.h"
 #include "renderer/bounce_places.h"
 #include "renderer/imperfect_setup.h"
@@ -166,6 +167,21 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
     }
     return seen_regions(boxes, gpu::draw_box(scene.bounds(), scene.space()), camera.clip_from_render,
                         camera.render_from_clip);
+}
+
+bool is_black(const Image& picture) {
+    return std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float value) { return value == 0.0F; });
+}
+
+// What a run can be repeated with, beside the settings.
+void throw_on_fault(const std::string& fault, const scene::Scene& scene, const scene::Pose& pose,
+                    uint32_t seed) {
+    if (!fault.empty()) {
+        throw Error(ExitCode::failed,
+                    fmt::format("{}; scene {}, time {:g} s (frame {:g}), seed {}", fault,
+                                scene.name.empty() ? "without a name" : scene.name, pose.time_s,
+                                scene.frames.start + pose.time_s * scene.frames.fps, seed));
+    }
 }
 
 passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) {
@@ -827,6 +843,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.removed.emplace();
     }
 
+    std::optional<passes::FiniteCheck> check;
+    if (settings.check_finite) {
+        check.emplace(programs_, settings.width, settings.height);
+    }
     if (plans_only_) {
         if (plan.deform) {
             report.executed.emplace_back("deform");
@@ -838,6 +858,9 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         passes::run_deform(programs_, gpu_scene_);
         timer.end();
         gl::throw_on_debug_error("deform");
+        if (check) {
+            check->wrote("deform", "vertex positions", gpu_scene_.vertices().positions(), k_all_floats);
+        }
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);
@@ -900,7 +923,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     if (settings.forced != Forced::nothing) {
         graph.ignore_conditions();
     }
-    graph.execute(timer, keeps ? &contents_ : nullptr);
+    graph.execute(timer, keeps ? &contents_ : nullptr, check ? &*check : nullptr);
+    if (check) {
+        throw_on_fault(check->fault(), scene_, pose, choice.seed);
+    }
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
@@ -925,11 +951,15 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     if (!anything_seen && !pose.draws.empty()) {
         report.notes.emplace_back("the camera sees no surface of the scene");
     }
+    if (settings.find_unlit && report.notes.empty() && shows_light(settings.show) && is_black(read_color())) {
+        report.notes.emplace_back("the picture is black: no light reaches what the camera sees of the scene");
+    }
     if (report.reuse && settings.count_gathered_pixels) {
         report.reuse->share = reused_pixels.surfaces > 0
                                   ? static_cast<double>(reused_pixels.reused) / reused_pixels.surfaces
                                   : 0.0;
     }
+    gl::throw_on_lost_context();
     pool_.end_frame();
     report.passes = timer.collect();
     return report;

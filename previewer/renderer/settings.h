@@ -179,7 +179,10 @@ struct Settings {
     bool frees_idle = false;  // textures are freed between passes: less memory, more time
 
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
-    bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
+    // Searches what each pass writes for NaN and infinities, and fails the frame where it finds any, naming
+    // the first pass that left one; costs a read of everything written, and a wait.
+    bool check_finite = false;
+    bool measure_removed = false;  // reports the light that bounding takes away; costs a wait
     bool find_unlit =
         false;  // says where nothing is seen, and where nothing that reflects is lit; costs a wait
 
