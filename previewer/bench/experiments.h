@@ -82,6 +82,7 @@ void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
 void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
+void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these

@@ -410,6 +410,10 @@ void RenderOptions::add_to(CLI::App& command) {
         ->group(measured);
     command.add_flag("--explain", explain, "Says in words what preset auto has chosen, and why")
         ->group(measured);
+    group.one_of("--force", force, setting_names<Forced>(),
+                 "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
+                 "picture the same to the bit; all, estimates as well",
+                 "nothing");
     group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
     add_vpl_options(command, *this);
     add_ism_options(command, *this);
@@ -426,6 +430,12 @@ void RenderOptions::add_still_to(CLI::App& command) {
             "Cycles' pixel filter; N times as slow. More than 1 takes the place of --antialias",
             k_most_samples),
         std::to_string(Settings{}.samples));
+    command
+        .add_option("--memory-limit", memory_limit_mib,
+                    "GPU memory that frames may take, MiB: settings are lowered until they fit, and what was given "
+                    "up is said")
+        ->check(CLI::PositiveNumber)
+        ->group(k_light_transport_group);
 }
 
 Settings RenderOptions::settings_without_scene() const {
@@ -476,6 +486,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(shadow_samples, out.shadow_samples);
     set(soft_shadow_size, out.soft_shadow_size);
     set(convolution_order, out.convolution_order);
+    set(force, setting_names<Forced>(), out.forced);
     set(show, setting_names<Show>(), out.show);
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);

@@ -87,6 +87,8 @@ struct RenderOptions {
     std::optional<int> shadow_samples;
     std::optional<int> soft_shadow_size;
     std::optional<int> convolution_order;
+    std::optional<std::string> force;
+    std::optional<double> memory_limit_mib;
     std::optional<std::string> show;
     std::optional<int> light;
     std::optional<int> vpl;

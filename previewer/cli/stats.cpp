@@ -149,6 +149,9 @@ ordered_json settings_json(const Settings& s) {
                         {"emitter_vpls", s.emitter_vpls},
                         {"emitter_panels", s.emitter_panels},
                         {"transparent_layers", s.transparent_layers}};
+    if (s.forced != Forced::nothing) {
+        out["forced"] = name_of(s.forced);
+    }
     out["world_sampling"] = name_of(s.world_sampling);
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl || s.direct_shadows == DirectShadows::ism) {

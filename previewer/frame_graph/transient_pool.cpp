@@ -65,6 +65,13 @@ void TransientPool::end_frame() {
     }
 }
 
+size_t TransientPool::bytes() const {
+    size_t sum = 0;
+    for (const auto& idle : textures_) sum += idle.resource.bytes();
+    for (const auto& idle : buffers_) sum += idle.resource.bytes();
+    return sum;
+}
+
 void TransientPool::clear() {
     framebuffers_.clear();
     textures_.clear();

@@ -29,6 +29,8 @@ class TransientPool {
     void end_frame();
     // Drops everything; for a change of size.
     void clear();
+    // Of what is idle.
+    [[nodiscard]] size_t bytes() const;
 
   private:
     template <typename T>

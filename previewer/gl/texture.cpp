@@ -31,6 +31,16 @@ size_t bytes_per_texel(GLenum format) {
     }
 }
 
+size_t storage_bytes(const TextureDesc& desc) {
+    size_t texels = 0;
+    for (int level = 0; level < desc.levels; ++level) {
+        texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
+                  static_cast<size_t>(std::max(desc.height >> level, 1));
+    }
+    return texels * static_cast<size_t>(std::max(std::max(desc.layers, desc.samples), 1)) *
+           bytes_per_texel(desc.format);
+}
+
 Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc) {
     GLuint id = 0;
     if (desc.samples > 0) {
@@ -52,14 +62,7 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     set_label(GL_TEXTURE, id, name);
-
-    size_t texels = 0;
-    for (int level = 0; level < desc.levels; ++level) {
-        texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
-                  static_cast<size_t>(std::max(desc.height >> level, 1));
-    }
-    allocation_ = Allocation(texels * static_cast<size_t>(std::max(std::max(desc.layers, desc.samples), 1)) *
-                             bytes_per_texel(desc.format));
+    allocation_ = Allocation(storage_bytes(desc));
 }
 
 }  // namespace bounce::gl

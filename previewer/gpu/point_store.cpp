@@ -164,7 +164,8 @@ void PointStore::bind_materials() const {
 void PointStore::find_changes(const std::vector<GpuPointSurface>& now) {
     changed_.clear();
     const auto moved = [&](size_t i) {
-        return updated_surfaces_.empty() || parts_.surfaces[i].deforms || !same(now[i], updated_surfaces_[i]);
+        return updated_surfaces_.empty() || (parts_.surfaces[i].deforms && deformed_ != updated_deformed_) ||
+               !same(now[i], updated_surfaces_[i]);
     };
     large_changed_ = std::any_of(set_.large.begin(), set_.large.end(),
                                  [&](const scene::SurfaceTriangle& t) { return moved(t.surface); });
@@ -197,7 +198,9 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
         wanted_ = wanted;
         sampled_on_hull_ = hull;
         upload(vertices);
+        ++samplings_;
     }
+    deformed_ = vertices.content();
     std::vector<bool> drawn(scene_.nodes.size(), false);
     for (const scene::DrawInstance& draw : pose.draws) {
         drawn[at(draw.node)] = true;
@@ -223,6 +226,11 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
                    drawn[at(surface.node)] ? 1 : 0, 0, 0};
         surfaces_.push_back(out);
     }
+    content_ = ContentHash()
+                   .add(samplings_)
+                   .add(deformed_)
+                   .add_all(std::span<const GpuPointSurface>(surfaces_))
+                   .key();
     find_changes(surfaces_);
     if (surface_buffer_.bytes() != surfaces_.size() * sizeof(GpuPointSurface)) {
         surface_buffer_ =
@@ -240,6 +248,7 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
 
 void PointStore::update_done() {
     updated_surfaces_ = surfaces_;
+    updated_deformed_ = deformed_;
     changed_.clear();
     large_changed_ = false;
 }

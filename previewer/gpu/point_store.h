@@ -36,6 +36,8 @@ class PointStore {
 
     // Sources whose surfaces changed; and whether those of large triangles did.
     [[nodiscard]] const std::vector<PointRun>& changed() const { return changed_; }
+    // What decides on the points and large triangles of this pose, and on their materials' places.
+    [[nodiscard]] const ContentKey& content() const { return content_; }
     [[nodiscard]] bool any_changed() const { return !changed_.empty() || large_changed_; }
     void update_done();
 
@@ -94,6 +96,8 @@ class PointStore {
     std::vector<GpuPointSurface> updated_surfaces_;   // that points stand on
     std::vector<GpuPointSurface> uploaded_surfaces_;  // in surface_buffer_
     std::vector<PointRun> changed_;
+    uint32_t samplings_ = 0;  // how often points were sampled
+    ContentKey content_, deformed_, updated_deformed_;
     bool large_changed_ = false;
     gl::Buffer triangle_sources_, triangles_, point_materials_;
     gl::Buffer sources_, surface_buffer_, points_;

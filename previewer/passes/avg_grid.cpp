@@ -79,6 +79,8 @@ void run_stage(const PassContext& context, const PassResources& resources, const
 AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid) {
     const glm::ivec4 size = grid.layout.size;
     const auto capacity = static_cast<size_t>(size.w);
+    const ContentKey decides =
+        ContentHash().add(content(context, grid.uniforms)).add(context.scene.content()).key();
     TileList list;
     graph.add_pass("avg cells", [&](PassBuilder& builder) {
         grid.cells = builder.create_texture(
@@ -87,6 +89,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
             "avg tiles",
             {.format = GL_R32UI, .width = 2 * AVG_TILE_ROW, .height = AVG_MOST_TILES / AVG_TILE_ROW});
         list.counts = builder.create_texture("avg counts", {.format = GL_R32UI, .width = 1, .height = 1});
+        builder.decided_by(decides);
         return [context, grid, list](const PassResources& resources) {
             const GLuint zero = 0;
             const gl::Texture& cells = resources.texture(grid.cells);
@@ -105,6 +108,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         grid.rows = builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float));
         sums = builder.create_buffer("avg sums", capacity * AVG_SUM_WORDS * sizeof(GLuint));
         grid.surfaces = builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel));
+        builder.decided_by(decides);
         return [context, grid, list, sums, size, rows](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);
             resources.texture(grid.cells).bind_image(IMG_AVG_CELLS, GL_READ_WRITE);
@@ -139,6 +143,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         list.tiles = builder.write(list.tiles);
         list.counts = builder.write(list.counts);
         grid.surfaces = builder.write(grid.surfaces);
+        builder.decided_by(decides);
         return [context, grid, list](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);
             resources.texture(grid.cells).bind_image(IMG_AVG_CELLS, GL_READ_ONLY);

@@ -34,14 +34,16 @@ void add_seals(const PassContext& context, gpu::PointStore& store) {
 }  // namespace
 
 ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
+    const ContentKey content = store.content();
+    if (!store.any_changed()) {
+        return {graph.import_buffer("points", store.points(), content),
+                graph.import_buffer("large triangles", store.triangles(), content)};
+    }
     ScenePoints out{graph.import_buffer("points", store.points()),
                     graph.import_buffer("large triangles", store.triangles())};
-    if (!store.any_changed()) {
-        return out;
-    }
     graph.add_pass("points", [&](PassBuilder& builder) {
-        out.points = builder.write(out.points);
-        out.triangles = builder.write(out.triangles);
+        out.points = builder.write(out.points, content);
+        out.triangles = builder.write(out.triangles, content);
         return [context, &store](const PassResources&) {
             context.programs.compute("passes/point_update.comp").use();
             store.bind_for_update();

@@ -123,7 +123,7 @@ passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer
 passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                          const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
-    world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    world.vpls = graph.import_buffer("world lights", *in.world_lights, in.world_content);
     if (in.sphere.cells != nullptr) {
         world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
     }
@@ -155,7 +155,8 @@ passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const pas
 passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs& in,
                                          const passes::ScenePoints& scene, size_t light) {
     passes::ImperfectMaps maps = in.imperfect[light];
-    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light]);
+    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light],
+                                         in.places_content[light]);
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
@@ -168,7 +169,7 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
 // The lights on emissive surfaces and their shadow maps.
 passes::VplSet add_emitters(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
     passes::VplSet emitters =
-        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.emitters.lights);
+        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.points->content(), in.emitters.lights);
     if (in.plan.emitters_occluded) {
         emitters.atlas = add_maps(graph, in, scene, emitters).atlas;
     }
@@ -193,6 +194,7 @@ passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgG
             .paths = in.settings.avg_paths,
             .numbers = in.avg.numbers,
             .sequences = k_avg_sequences,
+            .rays = in.avg.rays_content,
             .bounce = number,
             .glossy = in.plan.glossy};
 }

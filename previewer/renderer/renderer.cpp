@@ -66,6 +66,8 @@ float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bound
 // what they are hidden from.
 constexpr int k_irsm_size = 32;
 
+constexpr const char* k_unchanged = "what it makes is as in the frame before";
+
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
     const bool emitters = plan.emitters && plan.emitters_occluded;
@@ -242,6 +244,7 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         sphere_cells_ = gl::Buffer::of("sphere cells", std::span<const glm::vec4>(cells.light));
         sphere_radiance_ = radiance;
         sphere_grid_ = {cells.width, cells.height};
+        sphere_content_ = ContentHash().add_all(std::span<const glm::vec4>(cells.light)).key();
     }
     gpu::SphereUniforms uniforms{};
     if (environment_) {
@@ -253,7 +256,7 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         uniforms.grid = {sphere_grid_, 0, 0};
         uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
     }
-    return {&sphere_cells_, uniforms_.add(uniforms), sphere_grid_.x, sphere_grid_.y,
+    return {&sphere_cells_, sphere_content_, uniforms_.add(uniforms), sphere_grid_.x, sphere_grid_.y,
             environment_ && environment_->has_suns()};
 }
 
@@ -290,6 +293,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
+    settings.drop_hull = settings.drop_hull && settings.forced != Forced::all;
     IsmLayout first = ism_layout(settings, 1, 0);
     IsmLayout irsm = first;
     irsm.map_size = k_irsm_size;
@@ -428,7 +432,11 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         const std::vector<gpu::GpuVpl> made =
             environment_ ? environment_->lights(pose.world, layout, maps)
                          : world_lights(pose.world.color * pose.world.strength, layout, maps, chosen.seed);
-        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        const ContentKey content = ContentHash().add_all(std::span<const gpu::GpuVpl>(made)).key();
+        if (content != world_content_) {
+            world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+            world_content_ = content;
+        }
         // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
         // are.
         Settings disks = settings;
@@ -462,6 +470,7 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
     std::vector<passes::ImperfectMaps> out(lights);
     places_.clear();
     places_.resize(lights);
+    places_content_.assign(lights, {});
     for (const Imperfect& light : imperfect) {
         const bool tessellates =
             settings.splat == Splat::tessellation && light.of.type != scene::LightType::sun;
@@ -475,6 +484,7 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
             settings, places * imperfect_maps_a_place(light.setup, light.of, receivers), points);
         const ImperfectSetup made = set_up_imperfect_shadow(light.setup, light.of, receivers, places, layout);
         places_[light.light] = gl::Buffer::of("places on a light", std::span<const gpu::GpuVpl>(made.maps));
+        places_content_[light.light] = ContentHash().add_all(std::span<const gpu::GpuVpl>(made.maps)).key();
         passes::ImperfectMaps& maps = out[light.light];
         maps.places = places;
         maps.set = vpl_set(layout);
@@ -521,6 +531,7 @@ AvgInputs Renderer::prepare_avg(const std::vector<AvgRayLight>& lights, const Se
         const std::vector<gpu::GpuAvgRay> rays = avg_rays(lights, first);
         avg_rays_ = gl::Buffer::of("avg rays", std::span<const gpu::GpuAvgRay>(rays));
         out.rays = &avg_rays_;
+        out.rays_content = ContentHash().add_all(std::span<const gpu::GpuAvgRay>(rays)).key();
     }
     return out;
 }
@@ -551,6 +562,18 @@ FrameReport Renderer::render_whole(const scene::Pose& pose, const CameraView& vi
                           pose.light_instances.size(), one_of_many);
     }
     return render_lit(pose, view, settings, timing, before, pose.light_instances.size(), one_of_many);
+}
+
+FrameReport Renderer::plan(const scene::Pose& pose, const CameraView& view, const Settings& settings) {
+    plans_only_ = true;
+    try {
+        FrameReport report = render_whole(pose, view, settings, gl::TimingMode::off, nullptr, nullptr);
+        plans_only_ = false;
+        return report;
+    } catch (...) {
+        plans_only_ = false;
+        throw;
+    }
 }
 
 FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraView& view,
@@ -617,6 +640,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         previous_->draw(gpu_scene_, programs_, pool_, uniforms_, previous, settings, timer, report.executed);
     }
+    gpu_scene_.force_features(settings.forced != Forced::nothing);
     gpu_scene_.set_pose(of_scene);
     const std::optional<scene::PanelPose> with_panels = light_panels(of_scene, settings);
     const scene::Pose& pose = with_panels ? with_panels->pose : of_scene;
@@ -797,7 +821,13 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.removed.emplace();
     }
 
-    if (plan.deform) {
+    if (plans_only_) {
+        if (plan.deform) {
+            report.executed.emplace_back("deform");
+        }
+    } else if (plan.deform && !gpu_scene_.vertices().deform_due() && settings.forced == Forced::nothing) {
+        report.left_out.push_back({"deform", "joints and morph weights are as in the frame before"});
+    } else if (plan.deform) {
         timer.begin("deform");
         passes::run_deform(programs_, gpu_scene_);
         timer.end();
@@ -819,11 +849,13 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .lights = lights,
                 .imperfect = imperfect_maps,
                 .places = &places_,
+                .places_content = places_content_,
                 .bounce_sources = bounce_sources,
                 .points = points_needed(plan, settings) ? points_.get() : nullptr,
                 .bounces = bounces.bounces,
                 .world = bounces.world,
                 .world_lights = &world_lights_,
+                .world_content = world_content_,
                 .sphere = bounces.sphere,
                 .image = image,
                 .world_bounces = bounces.world_bounces,
@@ -845,10 +877,27 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
                 .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
                 .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
-    graph.execute(timer);
+    const bool keeps = one_of_many == nullptr && settings.forced == Forced::nothing;
+    if (plans_only_) {
+        const FrameGraph::Forecast forecast = graph.forecast(keeps && contents_.on());
+        report.executed.insert(report.executed.end(), forecast.passes.begin(), forecast.passes.end());
+        for (const std::string& pass : forecast.culled) {
+            report.left_out.push_back({pass, "nothing reads what it makes"});
+        }
+        report.memory = {.lasting = gl::allocated_bytes() - pool_.bytes() - contents_.bytes(),
+                         .passes = forecast.peak_bytes};
+        return report;
+    }
+    if (settings.forced != Forced::nothing) {
+        graph.ignore_conditions();
+    }
+    graph.execute(timer, keeps ? &contents_ : nullptr);
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    for (const std::string& pass : graph.unchanged()) {
+        report.left_out.push_back({pass, k_unchanged});
     }
     for (const std::string& pass : graph.skipped()) {
         report.left_out.push_back({pass, "no blended surface is in its layer"});
@@ -877,7 +926,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     return report;
 }
 
-void Renderer::keep_history() {
+void Renderer::keep_frame() {
+    contents_.keep_frame(pool_);
     if (history_) {
         history_->keep(gpu_scene_);
     }

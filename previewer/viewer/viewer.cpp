@@ -281,7 +281,7 @@ class Viewer {
             refusal_ = error.what();  // settings that this scene and driver do not go with
             return;
         }
-        stage_->renderer().keep_history();
+        stage_->renderer().keep_frame();
         glFinish();
         frame_clock_.add((seconds_now() - start) * 1000.0);
     }
