@@ -19,9 +19,8 @@ struct Source {
     std::string name;
     BounceSource source;
 };
-const std::vector<Source> k_sources = {{"points", BounceSource::points},
-                                       {"irsm", BounceSource::irsm},
-                                       {"avg", BounceSource::avg}};
+const std::vector<Source> k_sources = {
+    {"points", BounceSource::points}, {"irsm", BounceSource::irsm}, {"avg", BounceSource::avg}};
 
 struct Measured {
     double mean = 0.0;
@@ -71,8 +70,9 @@ void measure_furnace(const BenchInputs& inputs, BenchReport& report) {
     Progress progress("bench furnace", static_cast<int>(shapes.size() * lights.size() * albedos.size() *
                                                         k_sources.size() * bounces.size()));
     Table table{.title = "Mean radiance of the walls of closed rooms",
-                .note = "spread: of single pixels, standard deviation over the mean; 0 is exact where all walls "
-                        "emit, and after the light's own in a sphere",
+                .note =
+                    "spread: of single pixels, standard deviation over the mean; 0 is exact where all walls "
+                    "emit, and after the light's own in a sphere",
                 .columns = {{"room", ""},
                             {"light", ""},
                             {"albedo", ""},

@@ -36,7 +36,10 @@ const std::vector<SceneChange>& scene_changes() {
         scaling("scale 1e3", 1e3),
         scaling("scale 1e5", 1e5),
         scaling("scale 2^20", 0x1p20),
-        {"move 1e6", [](const scene::Scene& scene) { return scene::moved(scene, {1e6, -1e6, 1e6}); }},
+        {"move 1e6",
+         [](const scene::Scene& scene) {
+             return scene::moved(scene, {1e6, -1e6, 1e6});
+         }},
         lighting("light 1e-6", 1e-6),
         lighting("light 1e6", 1e6),
         turning("turn 90, up", 90.0, {0.0, 1.0, 0.0}, Allowed::rounding),
@@ -85,8 +88,8 @@ Difference difference(const Image& test, const Image& reference, double light) {
         out.worst = std::max(out.worst, worst);
         changed += worst > k_visible ? 1 : 0;
     }
-    out.changed = 3.0 * static_cast<double>(changed) /
-                  static_cast<double>(std::max<size_t>(reference.rgb.size(), 1));
+    out.changed =
+        3.0 * static_cast<double>(changed) / static_cast<double>(std::max<size_t>(reference.rgb.size(), 1));
     return out;
 }
 

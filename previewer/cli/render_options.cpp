@@ -410,10 +410,11 @@ void RenderOptions::add_to(CLI::App& command) {
         ->group(measured);
     command.add_flag("--explain", explain, "Says in words what preset auto has chosen, and why")
         ->group(measured);
-    group.one_of("--force", force, setting_names<Forced>(),
-                 "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
-                 "picture the same to the bit; all, estimates as well",
-                 "nothing");
+    group.one_of(
+        "--force", force, setting_names<Forced>(),
+        "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
+        "picture the same to the bit; all, estimates as well",
+        "nothing");
     group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
     add_vpl_options(command, *this);
     add_ism_options(command, *this);

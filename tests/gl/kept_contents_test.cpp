@@ -71,7 +71,8 @@ class Kept : public test::GlTest {
         graph.add_pass(name, [&](PassBuilder& builder) {
             builder.read(handle);
             builder.side_effect();
-            return [handle, &seen](const PassResources& resources) { seen = texel(resources.texture(handle)); };
+            return
+                [handle, &seen](const PassResources& resources) { seen = texel(resources.texture(handle)); };
         });
     }
     static void clear(const gl::Texture& texture, float value) {
@@ -161,7 +162,8 @@ TEST_F(Kept, APassThatSaysNotWhatDecidesRunsInEachFrameAndAllThatReadsIt) {
 TEST_F(Kept, WritersInPlaceAreOneResult) {
     const auto frame_of = [&](int last, float& seen) {
         FrameGraph graph(pool_);
-        look(graph, "look", change(graph, "second", change(graph, "first", fill(graph, "map", 1), 2), last), seen);
+        look(graph, "look", change(graph, "second", change(graph, "first", fill(graph, "map", 1), 2), last),
+             seen);
         graph.execute(timer_, &kept_);
         kept_.keep_frame(pool_);
         return graph.executed();
@@ -234,7 +236,8 @@ TEST_F(Kept, AFailedFrameLeavesNothingHalfDone) {
         graph.add_pass("fails", [&](PassBuilder& builder) {
             builder.read(map);
             builder.side_effect();
-            return [](const PassResources&) { throw Error(ExitCode::failed, "a shader that does not compile"); };
+            return
+                [](const PassResources&) { throw Error(ExitCode::failed, "a shader that does not compile"); };
         });
         graph.execute(timer_, &kept_);
     };
@@ -261,7 +264,8 @@ TEST_F(Kept, AForecastSaysWhatIsAllocated) {
     float seen = 0.0F;
     FrameGraph forecast(pool_);
     build(forecast, seen);
-    EXPECT_EQ(forecast.forecast(false, true).peak_bytes, 2 * texture) << "the map's memory serves the second sum";
+    EXPECT_EQ(forecast.forecast(false, true).peak_bytes, 2 * texture)
+        << "the map's memory serves the second sum";
     FrameGraph keeping(pool_);
     build(keeping, seen);
     EXPECT_EQ(keeping.forecast(true, true).peak_bytes, 3 * texture);

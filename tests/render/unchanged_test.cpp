@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What did not change since the frame before is not made again, and nobody sees it; what the scene does not need
-// changes nothing when it is done all the same; memory is what was forecast.
+// What did not change since the frame before is not made again, and nobody sees it; what the scene does not
+// need changes nothing when it is done all the same; memory is what was forecast.
 #include <algorithm>
 #include <deque>
 #include <functional>
@@ -29,7 +29,8 @@ scene::Scene set_scene() {
     scene::Scene scene = corner_scene();
     add_wall_spot(scene);
     scene.lights[0].name = "Spot";
-    add_mesh_node(scene, add_ball(scene, add_diffuse(scene, {0.7F, 0.5F, 0.4F}), 0.25F), moved({-1.0, 0.0, 0.75}));
+    add_mesh_node(scene, add_ball(scene, add_diffuse(scene, {0.7F, 0.5F, 0.4F}), 0.25F),
+                  moved({-1.0, 0.0, 0.75}));
     scene::Light lamp;
     lamp.name = "Lamp";
     lamp.type = scene::LightType::point;
@@ -72,8 +73,8 @@ class Unchanged : public testing::Test {
   protected:
     void SetUp() override { require_context(); }
 
-    // Three frames with a change in each, and the first one's once more: by one renderer that keeps what did not
-    // change, each beside a renderer of its own. Returns what the third frame ran.
+    // Three frames with a change in each, and the first one's once more: by one renderer that keeps what did
+    // not change, each beside a renderer of its own. Returns what the third frame ran.
     static Names run(const scene::Scene& scene, const Settings& settings, const Change& change) {
         Renderer keeping(scene);
         keeping.expect_frames(true);
@@ -99,8 +100,9 @@ TEST_F(Unchanged, AMovingCameraPaysForTheViewAlone) {
     const Names passes = run(set_scene(), small(), k_camera);
     EXPECT_THAT(passes, Contains("gbuffer"));
     EXPECT_THAT(passes, Contains("vpl gather"));
-    for (const char* name : {"shadow map: Spot", "rsm: Spot", "rsm: Lamp", "points", "vpl importance", "vpls",
-                             "ism disks", "ism triangles", "vpls, next bounce", "vpl importance, next bounce"}) {
+    for (const char* name :
+         {"shadow map: Spot", "rsm: Spot", "rsm: Lamp", "points", "vpl importance", "vpls", "ism disks",
+          "ism triangles", "vpls, next bounce", "vpl importance, next bounce"}) {
         EXPECT_THAT(passes, Not(Contains(name)));
     }
 }
@@ -139,7 +141,8 @@ TEST_F(Unchanged, AnObjectBesideALightsConeLeavesItsMaps) {
     aside.name = "Aside";
     aside.cone_angle_rad = 0.3F;
     add_light(scene, aside, moved({1.2, 1.2, 1.0}));  // looks down
-    const Names passes = run(scene, small(), [](Changed& now, int frame) { move_ball(now.pose, 0.01 * frame); });
+    const Names passes =
+        run(scene, small(), [](Changed& now, int frame) { move_ball(now.pose, 0.01 * frame); });
     EXPECT_THAT(passes, Contains("shadow map: Spot"));
     EXPECT_THAT(passes, Not(Contains("shadow map: Aside")));
     EXPECT_THAT(passes, Not(Contains("rsm: Aside")));
@@ -164,7 +167,8 @@ TEST_F(Unchanged, TheWorldsLightChangesAloneWithItsMaps) {
     EXPECT_THAT(passes, Not(Contains("vpls")));
 }
 
-// Every way to draw bounced light, and every kind of shadow, with the camera moving, and with an object moving.
+// Every way to draw bounced light, and every kind of shadow, with the camera moving, and with an object
+// moving.
 TEST_F(Unchanged, NoSettingsShowIt) {
     std::vector<std::pair<std::string, Settings>> all;
     const auto with = [&](const char* name, const std::function<void(Settings&)>& set) {
@@ -325,8 +329,11 @@ TEST_F(Unchanged, AMemoryLimitIsKeptOrRefused) {
     EXPECT_LE(fit.peak_bytes, limit);
     (void)limited.render(pose, camera, fit.settings);
     EXPECT_LE(gl::peak_allocated_bytes(), limit + all.peak_bytes) << "the first renderer is there as well";
-    EXPECT_THAT([&] { (void)fit_to_memory(limited, {{pose, camera}}, large, true, 1000); },
-                ThrowsMessage<Error>(HasSubstr("raise --memory-limit")));
+    EXPECT_THAT(
+        [&] {
+            (void)fit_to_memory(limited, {{pose, camera}}, large, true, 1000);
+        },
+        ThrowsMessage<Error>(HasSubstr("raise --memory-limit")));
 }
 
 }  // namespace

@@ -71,15 +71,17 @@ TEST(AbsentDetails, NameEveryBranchThatIsCompiledOut) {
     const scene::Scene scene = square({});
     const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
     const Settings settings;
-    const std::vector<LeftOut> absent = absent_details(scene, pose, settings, plan_frame(scene, pose, settings));
+    const std::vector<LeftOut> absent =
+        absent_details(scene, pose, settings, plan_frame(scene, pose, settings));
     std::vector<std::string> names;
     for (const LeftOut& item : absent) {
         names.push_back(item.pass);
         EXPECT_FALSE(item.reason.empty());
     }
-    EXPECT_THAT(names, testing::IsSupersetOf({"base colour textures", "metallic-roughness textures", "normal maps",
-                                              "emission textures", "vertex colours", "alpha test", "point lights",
-                                              "spot lights", "suns", "area lights", "debug layers"}));
+    EXPECT_THAT(names,
+                testing::IsSupersetOf({"base colour textures", "metallic-roughness textures", "normal maps",
+                                       "emission textures", "vertex colours", "alpha test", "point lights",
+                                       "spot lights", "suns", "area lights", "debug layers"}));
 }
 
 TEST(AbsentDetails, AreNotNamedWhereTheyAreThere) {
