@@ -70,6 +70,7 @@ void measure_stress(const BenchInputs& inputs, BenchReport& report) {
         const stress::StressResult result = run_case(one, run);
         const bool good = result.verdict.as_expected && result.finite;
         as_expected += good ? 1 : 0;
+        report.bounds_broken += good ? 0 : 1;
         log::info("{:<8}{}: {}", good ? "as must" : "NOT", one.name, result.verdict.got);
         table.rows.push_back({one.name, one.expected, result.verdict.got, good ? "yes" : "NO",
                               result.finite ? "none" : "FOUND",

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "cli/auto_options.h"
 #include "cli/commands.h"
 #include "cli/converge_options.h"
 #include "cli/frame_list.h"
@@ -22,6 +25,7 @@
 #include "core/stopwatch.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "renderer/memory_fit.h"
 #include "renderer/renderer.h"
 #include "renderer/sampled_picture.h"
 #include "renderer/setting_names.h"
@@ -179,7 +183,32 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
         stats.report.notes = found.notes;
         stats.report.left_out = found.left_out;
     }
+    if (std::all_of(arguments.outputs.begin(), arguments.outputs.end(),
+                    [](const std::string& output) { return is_scene_linear(output); })) {
+        stats.report.left_out.push_back({"view transform", "every output is scene-linear"});
+    }
+    stats.report.left_out.push_back({"metrics", "nothing is compared (bounce compare, bounce evaluate)"});
     return stats;
+}
+
+// The settings with which the first, the middle and the last frame fit into --memory-limit.
+Settings fitted(Renderer& renderer, const scene::Scene& scene, const Arguments& arguments,
+                const std::vector<int>& frames, int animation, const Settings& settings) {
+    std::deque<scene::Pose> poses;  // that the moments refer to
+    std::vector<Moment> moments;
+    for (const size_t i : std::set<size_t>{0, frames.size() / 2, frames.size() - 1}) {
+        const scene::Pose& pose = poses.emplace_back(
+            scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation));
+        const CameraView camera =
+            scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
+        moments.push_back({pose, camera});
+    }
+    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * 1024.0 * 1024.0);
+    MemoryFit fit = fit_to_memory(renderer, moments, settings, frames.size() > 1, limit);
+    for (const std::string& change : fit.changes) {
+        log::info("note: to stay within {:g} MiB: {}", *arguments.render.memory_limit_mib, change);
+    }
+    return fit.settings;
 }
 
 ExitCode render(const CLI::App& command, Arguments arguments) {
@@ -197,7 +226,8 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     const scene::Scene& scene = loaded.scene;
     warn_of_unsupported(scene);
-    Settings settings = arguments.render.settings(scene);
+    AutoUse automatic = choose_automatically(arguments.render, scene, arguments.converge.frame_target());
+    Settings settings = automatic.used ? automatic.choice.settings : arguments.render.settings(scene);
     settings.check_finite = arguments.check_finite;
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
@@ -206,6 +236,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     check_view(arguments, scene.view, settings);
     arguments.converge.check(settings);
+    check_targets(arguments.render, arguments.converge);
     if (arguments.converge.converge && arguments.removed) {
         throw usage_error("--measure-removed is of a single frame; give no --converge beside it");
     }
@@ -228,8 +259,23 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     Renderer renderer(scene);
     glFinish();
     start.upload_ms = uploading.ms();
+    renderer.expect_frames(frames.size() > 1);
+    if (automatic.needs_trial()) {
+        try_automatic(renderer, scene, arguments.render, animation, frames.front(), automatic);
+        settings = automatic.choice.settings;
+        require_within(device.limits, settings);
+    }
+    if (arguments.render.explain) {
+        print_choice(automatic);
+    }
+    if (arguments.render.memory_limit_mib) {
+        settings = fitted(renderer, scene, arguments, frames, animation, settings);
+    }
     const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
+    if (automatic.used) {
+        stats.chosen(automatic_json(automatic));
+    }
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
     int written = 0;
@@ -255,7 +301,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         FrameStats measured =
             measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
                           frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
-        renderer.keep_history();
+        renderer.keep_frame();
         frame_before = frame;
         measured.frame = frame;
         measured.time_s = time_s;

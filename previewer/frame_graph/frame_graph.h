@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "core/content_key.h"
 #include "frame_graph/dependency_graph.h"
+#include "frame_graph/kept_contents.h"
 #include "frame_graph/transient_pool.h"
 #include "gl/pass_timer.h"
 
@@ -85,8 +87,14 @@ class PassBuilder {
     // Changes what is there (reads and writes); returns the new version.
     [[nodiscard]] TextureHandle write(TextureHandle handle);
     [[nodiscard]] BufferHandle write(BufferHandle handle);
+    // The same for a pass whose result is known by this key whatever was there before.
+    [[nodiscard]] BufferHandle write(BufferHandle handle, const ContentKey& becomes);
     // The pass runs even where nothing reads its results.
     void side_effect();
+    // All that decides on what the pass writes, but what it reads in the graph: where this and that are as in
+    // the frame before, what it wrote then serves again (FrameGraph::execute). Without it the pass runs in
+    // each frame that needs it.
+    void decided_by(const ContentKey& key);
 
   private:
     friend class FrameGraph;
@@ -102,13 +110,15 @@ class FrameGraph {
     // A texture that outlives the frame. Writing it is a side effect.
     TextureHandle import_texture(const std::string& name, const gl::Texture& texture);
     // A buffer that outlives the frame as a cache: unlike a texture's, writing it keeps no pass alive.
-    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words = {});
+    // content: what is in it; unknown: passes that read it run in each frame.
+    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const ContentKey& content = {},
+                               const FloatWords& words = {});
 
     // setup(PassBuilder&) declares and returns the function that draws.
     template <typename Setup>
     void add_pass(const std::string& name, Setup&& setup) {
         const int pass = dependencies_.add_pass(name);
-        passes_.push_back({name, {}, {}, {}, condition_});
+        passes_.push_back({name, {}, {}, {}, condition_, {}, {}, {}});
         PassBuilder builder(*this, pass);
         passes_.back().execute = setup(builder);
     }
@@ -121,15 +131,28 @@ class FrameGraph {
     // null: they always run. What a pass that does not run would have written is undefined.
     void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
 
-    // Runs the live passes in the order they were added; GL errors are thrown with the pass's name.
-    // observer: told of each texture and buffer that a pass has written, right after it; null: none.
-    void execute(gl::PassTimer& timer, PassObserver* observer = nullptr);
+    // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept:
+    // what earlier frames made, and where this one's goes; null: every live pass runs. observer: told
+    // of each texture and buffer that a pass has written, right after it; null: none.
+    void execute(gl::PassTimer& timer, KeptContents* kept = nullptr, PassObserver* observer = nullptr);
+    // What execute() would do where every condition held, without doing it: the names of the passes that
+    // would run, and how much is allocated at once, bytes, in an empty pool. keeps: all that is worth keeping
+    // is kept. holds: TransientPool::hold_idle().
+    struct Forecast {
+        std::vector<std::string> passes, culled;
+        size_t peak_bytes = 0;
+    };
+    [[nodiscard]] Forecast forecast(bool keeps, bool holds);
+    // Conditions of passes count as held: everything that may run does.
+    void ignore_conditions() { ignore_conditions_ = true; }
 
     // After execute(): names in order of execution, and of those culled.
     [[nodiscard]] const std::vector<std::string>& executed() const { return executed_; }
     [[nodiscard]] const std::vector<std::string>& culled() const { return culled_; }
     // Live ones whose condition did not hold.
     [[nodiscard]] const std::vector<std::string>& skipped() const { return skipped_; }
+    // Those that did not run since all that they would have made is as in the frame before.
+    [[nodiscard]] const std::vector<std::string>& unchanged() const { return unchanged_; }
     [[nodiscard]] std::string to_dot() const { return dependencies_.to_dot(); }
 
   private:
@@ -149,6 +172,9 @@ class FrameGraph {
         gl::Texture texture;
         gl::Texture* kept = nullptr;  // where the texture goes in the end
         gl::Buffer buffer;
+        ContentKey key;            // of its last version, with what it is; unknown where it cannot be kept
+        bool kept_before = false;  // it is of an earlier frame, and no pass writes it
+        bool complete = false;     // all that use it have run
         int latest_version = -1;
         int first_use = -1;
         int last_use = -1;
@@ -159,6 +185,8 @@ class FrameGraph {
         std::vector<int> resources;  // declared, by resource (not version)
         std::vector<int> written;    // of these
         std::function<bool()> condition;
+        std::vector<int> reads, writes;  // versions
+        ContentKey decided_by;
     };
 
     int add_version(int resource);
@@ -166,6 +194,8 @@ class FrameGraph {
     void declare_created(int pass, int version);
     int declare_write(int pass, int version);
     void find_lifetimes(const std::vector<bool>& live);
+    void find_contents(const std::vector<bool>& live);
+    [[nodiscard]] std::vector<bool> live_without_kept(const std::vector<bool>& live, KeptContents& kept);
     void acquire(Resource& resource, bool zeroed);
     void show(const Pass& pass, PassObserver& observer) const;
     void release(Resource& resource);
@@ -175,6 +205,10 @@ class FrameGraph {
     std::vector<Pass> passes_;
     std::vector<Resource> resources_;
     std::vector<int> resource_of_version_;
+    std::vector<ContentKey> content_of_version_;
+    KeptContents* kept_ = nullptr;  // while it executes
+    bool ignore_conditions_ = false;
+    std::vector<std::string> unchanged_;
     std::vector<std::string> executed_;
     std::vector<std::string> culled_;
     std::vector<std::string> skipped_;

@@ -35,6 +35,16 @@ size_t bytes_per_texel(GLenum format) {
     }
 }
 
+size_t storage_bytes(const TextureDesc& desc) {
+    size_t texels = 0;
+    for (int level = 0; level < desc.levels; ++level) {
+        texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
+                  static_cast<size_t>(std::max(desc.height >> level, 1));
+    }
+    return texels * static_cast<size_t>(std::max(std::max(desc.layers, desc.samples), 1)) *
+           bytes_per_texel(desc.format);
+}
+
 TexelKind texel_kind(GLenum format) {
     switch (format) {
         case GL_DEPTH_COMPONENT32F:
@@ -104,13 +114,7 @@ Texture::Texture(const std::string& name, const TextureDesc& desc) : desc_(desc)
         glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-    size_t texels = 0;
-    for (int level = 0; level < desc.levels; ++level) {
-        texels += static_cast<size_t>(std::max(desc.width >> level, 1)) *
-                  static_cast<size_t>(std::max(desc.height >> level, 1));
-    }
-    const size_t bytes =
-        texels * static_cast<size_t>(std::max({desc.layers, desc.samples, 1})) * bytes_per_texel(desc.format);
+    const size_t bytes = storage_bytes(desc);
     throw_on_failed_allocation("the texture " + name, bytes);
     set_label(GL_TEXTURE, id, name);
     allocation_ = Allocation(bytes);

@@ -24,6 +24,8 @@ struct TextureDesc {
 };
 
 [[nodiscard]] size_t bytes_per_texel(GLenum format);
+// Of all levels, layers and samples; the driver's own overhead is not in it.
+[[nodiscard]] size_t storage_bytes(const TextureDesc& desc);
 
 // How texels are read and cleared: as depths, as whole numbers or as values with a fraction.
 enum class TexelKind { depth, integer, real };
@@ -39,6 +41,7 @@ class Texture {
 
     [[nodiscard]] GLuint id() const { return object_.id(); }
     [[nodiscard]] const TextureDesc& desc() const { return desc_; }
+    [[nodiscard]] size_t bytes() const { return storage_bytes(desc_); }
     [[nodiscard]] explicit operator bool() const { return static_cast<bool>(object_); }
     void bind(GLuint unit) const { glBindTextureUnit(unit, id()); }
     void bind_image(GLuint unit, GLenum access) const {

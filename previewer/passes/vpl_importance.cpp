@@ -14,6 +14,7 @@ BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const Imp
         pixels = builder.create_buffer("importance pixels",
                                        static_cast<size_t>(view.pixels) * sizeof(gpu::GpuImportancePixel),
                                        k_all_floats);
+        builder.decided_by(ContentHash().add(camera_content(context)).add(view.pixels).add(view.seed).key());
         return [context, view, pixels](const PassResources& resources) {
             context.programs.compute("passes/importance_pixels.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
@@ -43,6 +44,9 @@ BufferHandle add_vpl_importance(FrameGraph& graph, const PassContext& context,
         }
         if (view) builder.read(pixels);
         importance = builder.create_buffer("importance map", texels * sizeof(float), k_all_floats);
+        ContentHash hash = hash_of(sources);
+        hash.add(lights).add(view ? view->pixels : 0).add(view ? view->floor : -1.0F);
+        builder.decided_by(hash.key());
         return [context, sources, view, pixels, importance, texels, lights](const PassResources& resources) {
             for_each_map(sources, [&](const MapSource& source, int, int first) {
                 gl::Defines defines = source.defines;
@@ -78,6 +82,7 @@ ImportanceTables add_importance_sums(FrameGraph& graph, const PassContext& conte
             builder.create_buffer("texel sums", texels_of(sources) * sizeof(float), k_all_floats);
         out.rows = sums;
         out.texels = texel_sums;
+        builder.decided_by(hash_of(sources).add(importance.valid()).add(even_rows).key());
         return [context, sources, importance, rows, sums, texel_sums,
                 even_rows](const PassResources& resources) {
             for_each_map(sources, [&](const MapSource& source, int row, int texel) {

@@ -142,7 +142,8 @@ std::vector<StressCase> picture_cases() {
         {"a world alone", "its radiance: 0.1 %", empty_world},
         {"no light", "black, with a note", no_light},
         {"no camera", "the ground in the middle, within 3 %, and the world around it", no_camera},
-        {"a camera in a closed mesh", "at most 1 % of the light without it: a shadow's rim is a texel wide", camera_in_a_mesh},
+        {"a camera in a closed mesh", "at most 1 % of the light without it: a shadow's rim is a texel wide",
+         camera_in_a_mesh},
         {"a camera cut by the ground", "the world above the horizon: 0.1 %", camera_on_a_surface},
         {"a light and no mesh", "black, with a note", without_meshes_but_a_light},
     };

@@ -28,11 +28,13 @@ class FiniteCheckTest : public test::GlTest {
         const bool depth = gl::texel_kind(desc.format) == gl::TexelKind::depth;
         const std::array<float, 4> texel = {value, value, value, value};
         for (int level = 0; level < desc.levels; ++level) {
-            glClearTexImage(texture.id(), level, depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, texel.data());
+            glClearTexImage(texture.id(), level, depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT,
+                            texel.data());
         }
         return texture;
     }
-    static void put(const gl::Texture& texture, int level, const glm::ivec3& at, const std::array<float, 4>& value) {
+    static void put(const gl::Texture& texture, int level, const glm::ivec3& at,
+                    const std::array<float, 4>& value) {
         glClearTexSubImage(texture.id(), level, at.x, at.y, at.z, 1, 1, 1, GL_RGBA, GL_FLOAT, value.data());
     }
     gl::ProgramCache programs_;
@@ -40,11 +42,12 @@ class FiniteCheckTest : public test::GlTest {
 };
 
 TEST_F(FiniteCheckTest, FiniteTexturesOfEveryKindHaveNoFault) {
-    for (const gl::TextureDesc& desc : {gl::TextureDesc{.format = GL_RGBA32F, .width = 100, .height = 40},
-                                        gl::TextureDesc{.format = GL_R16F, .width = 7, .height = 3, .layers = 6},
-                                        gl::TextureDesc{.format = GL_RGBA16F, .width = 8, .height = 8, .levels = 3},
-                                        gl::TextureDesc{.format = GL_DEPTH_COMPONENT32F, .width = 9, .height = 9},
-                                        gl::TextureDesc{.format = GL_RGBA8, .width = 9, .height = 9}}) {
+    for (const gl::TextureDesc& desc :
+         {gl::TextureDesc{.format = GL_RGBA32F, .width = 100, .height = 40},
+          gl::TextureDesc{.format = GL_R16F, .width = 7, .height = 3, .layers = 6},
+          gl::TextureDesc{.format = GL_RGBA16F, .width = 8, .height = 8, .levels = 3},
+          gl::TextureDesc{.format = GL_DEPTH_COMPONENT32F, .width = 9, .height = 9},
+          gl::TextureDesc{.format = GL_RGBA8, .width = 9, .height = 9}}) {
         check_.wrote("pass", "texture", filled(desc, 0.5F), {});
     }
     EXPECT_EQ(check_.fault(), "");
@@ -63,7 +66,8 @@ TEST_F(FiniteCheckTest, NamesPassTextureAndPixelFromTheTopLeft) {
 }
 
 TEST_F(FiniteCheckTest, LooksAtLayersLevelsHalvesAndInfinities) {
-    const gl::Texture layers = filled({.format = GL_RGBA16F, .width = 32, .height = 64, .layers = 6, .levels = 2}, 1.0F);
+    const gl::Texture layers =
+        filled({.format = GL_RGBA16F, .width = 32, .height = 64, .layers = 6, .levels = 2}, 1.0F);
     put(layers, 1, {15, 31, 5}, {k_infinite, 0.0F, 0.0F, 0.0F});
     check_.wrote("pass", "layers", layers, {});
     EXPECT_THAT(check_.fault(), AllOf(HasSubstr("wrote an infinite value into layers"),
@@ -94,7 +98,8 @@ TEST_F(FiniteCheckTest, LooksAtTheFloatsOfBuffersOnly) {
     EXPECT_EQ(look({}), "") << "nothing is known of it";
     EXPECT_EQ(look({32, 0xffff7fffU}), "");
     words[1999 * 32 + 31] = k_nan;
-    EXPECT_THAT(look({32, 0xffff7fffU}), AllOf(HasSubstr("element 1999"), HasSubstr("1 values of it are NaN")));
+    EXPECT_THAT(look({32, 0xffff7fffU}),
+                AllOf(HasSubstr("element 1999"), HasSubstr("1 values of it are NaN")));
     EXPECT_THAT(look({40, uint64_t{1} << 39U}), testing::IsEmpty());
     words[40 * 7 + 39] = -k_infinite;
     EXPECT_THAT(look({40, uint64_t{1} << 39U}), HasSubstr("element 7"));
