@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
 #include <gmock/gmock.h>
 
 #include "gl_context.h"
@@ -125,7 +127,7 @@ TEST_F(FiniteCheckTest, TheGraphTellsOfWhatPassesWriteAndZerosWhatTheyDoNot) {
             };
         });
         FiniteCheck check(programs_, 4, 4);
-        graph.execute(timer, &check);
+        graph.execute(timer, nullptr, &check);
         return check.fault();
     };
     EXPECT_EQ(frame(1.0F), "");
