@@ -165,7 +165,8 @@ Verdict keys_at_one_time(StressRun& run) {
 }
 
 Verdict all_keys_at_one_time(StressRun& run) {
-    return keyed_at(run, keyed({0.5F, 0.5F, 0.5F}, {0.1F, 0.2F, 0.4F}), 3.0, 0.4F);
+    const SceneFile file = keyed({0.5F, 0.5F, 0.5F}, {0.1F, 0.2F, 0.4F});
+    return both(keyed_at(run, file, 3.0, 0.1F), keyed_at(run, file, 9.0, 0.4F));
 }
 
 Verdict one_key(StressRun& run) {
