@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -118,7 +119,8 @@ class SceneBench {
         AutoRequest request;
         request.base = sized(Settings{}, size);
         request.budget_ms = budget_ms;
-        trial = choose_on_trial(renderer_, {pose_, camera(size)}, described, request);
+        const Moment moment{pose_, camera(size)};
+        trial = choose_on_trial(renderer_, std::span(&moment, 1), described, request);
         Contestant out(fmt::format("auto, {:g} ms", budget_ms), trial.choice.settings);
         out.budget_ms = budget_ms;
         for (const AutoReason& reason : trial.choice.reasons) {

@@ -35,12 +35,12 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
-    std::string only;  // stress: cases whose names hold this
     // auto: times a frame, and the picture's size for each, or for all.
     std::vector<double> budgets_ms{33.0, 100.0, 250.0};
     std::vector<std::pair<int, int>> sizes;
     std::string
         references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;        // stress: cases whose names hold this
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
@@ -86,9 +86,9 @@ void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
 void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
 void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
-void measure_stress(const BenchInputs& inputs, BenchReport& report);
 void measure_furnace(const BenchInputs& inputs, BenchReport& report);
 void measure_invariance(const BenchInputs& inputs, BenchReport& report);
+void measure_stress(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
 // experiments take of memory. Empty where it is.

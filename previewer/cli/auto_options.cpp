@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/auto_options.h"
 
+#include <algorithm>
+#include <deque>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -8,6 +11,11 @@
 #include "scene/pose.h"
 
 namespace bounce::cli {
+namespace {
+
+constexpr size_t k_trial_frames = 6;
+
+}  // namespace
 
 AutoUse choose_automatically(const RenderOptions& options, const scene::Scene& scene,
                              std::optional<double> target_relmse) {
@@ -33,12 +41,16 @@ AutoUse choose_automatically(const RenderOptions& options, const scene::Scene& s
 }
 
 void try_automatic(Renderer& renderer, const scene::Scene& scene, const RenderOptions& options, int animation,
-                   int frame, AutoUse& use) {
-    const scene::Pose pose =
-        scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frame), animation);
-    const CameraView camera =
-        scene_camera(scene, pose, options.camera, use.request.base.width, use.request.base.height);
-    AutoTrial trial = choose_on_trial(renderer, {pose, camera}, use.scene, use.request);
+                   const std::vector<int>& frames, AutoUse& use) {
+    std::deque<scene::Pose> poses;  // that the moments refer to
+    std::vector<Moment> moments;
+    for (size_t i = 0; i < std::min(frames.size(), k_trial_frames); ++i) {
+        const scene::Pose& pose = poses.emplace_back(
+            scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation));
+        moments.push_back({pose, scene_camera(scene, pose, options.camera, use.request.base.width,
+                                              use.request.base.height)});
+    }
+    AutoTrial trial = choose_on_trial(renderer, moments, use.scene, use.request);
     use.choice = std::move(trial.choice);
     use.speed = use.request.machine_speed = trial.machine_speed;
     use.measured_ms = trial.measured_ms;

@@ -32,10 +32,10 @@ struct AutoUse {
 [[nodiscard]] AutoUse choose_automatically(const RenderOptions& options, const scene::Scene& scene,
                                            std::optional<double> target_relmse);
 
-// Chooses again by frames on trial (choose_on_trial()), of `frame` by Blender's number. Says the machine's
-// speed on stderr.
+// Chooses again by frames on trial (choose_on_trial()), the first of `frames` by Blender's numbers. Says the
+// machine's speed on stderr.
 void try_automatic(Renderer& renderer, const scene::Scene& scene, const RenderOptions& options, int animation,
-                   int frame, AutoUse& use);
+                   const std::vector<int>& frames, AutoUse& use);
 
 // Refuses a budget for frames beside --converge, whose passes have no time of their own to keep.
 void check_targets(const RenderOptions& options, const ConvergeOptions& converge);

@@ -261,7 +261,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     start.upload_ms = uploading.ms();
     renderer.expect_frames(frames.size() > 1);
     if (automatic.needs_trial()) {
-        try_automatic(renderer, scene, arguments.render, animation, frames.front(), automatic);
+        try_automatic(renderer, scene, arguments.render, animation, frames, automatic);
         settings = automatic.choice.settings;
         require_within(device.limits, settings);
     }

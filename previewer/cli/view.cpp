@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -37,7 +39,12 @@ double machine_speed(const RenderOptions& options, const scene::Scene& scene, Au
     const gl::HeadlessContext context;
     (void)gl::initialise_current_context();
     Renderer renderer(scene);
-    try_automatic(renderer, scene, options, options.animation_index(scene), scene.frames.start, use);
+    renderer.expect_frames(true);
+    std::vector<int> frames;
+    for (int frame = scene.frames.start; frame <= std::max(scene.frames.end, scene.frames.start); ++frame) {
+        frames.push_back(frame);
+    }
+    try_automatic(renderer, scene, options, options.animation_index(scene), frames, use);
     return *use.speed;
 }
 

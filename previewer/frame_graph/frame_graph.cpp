@@ -51,8 +51,8 @@ TextureHandle FrameGraph::import_texture(const std::string& name, const gl::Text
     return {add_version(static_cast<int>(resources_.size()) - 1)};
 }
 
-BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer, const ContentKey& content,
-                                       const FloatWords& words) {
+BufferHandle FrameGraph::import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words,
+                                       const ContentKey& content) {
     Resource resource;
     resource.name = name;
     resource.is_texture = false;

@@ -110,9 +110,10 @@ class FrameGraph {
     // A texture that outlives the frame. Writing it is a side effect.
     TextureHandle import_texture(const std::string& name, const gl::Texture& texture);
     // A buffer that outlives the frame as a cache: unlike a texture's, writing it keeps no pass alive.
-    // content: what is in it; unknown: passes that read it run in each frame.
-    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const ContentKey& content = {},
-                               const FloatWords& words = {});
+    // words: which of its words are floats. content: what is in it; unknown: passes that read it run in each
+    // frame.
+    BufferHandle import_buffer(const std::string& name, gl::Buffer& buffer, const FloatWords& words = {},
+                               const ContentKey& content = {});
 
     // setup(PassBuilder&) declares and returns the function that draws.
     template <typename Setup>
@@ -132,8 +133,8 @@ class FrameGraph {
     void set_condition(std::function<bool()> condition) { condition_ = std::move(condition); }
 
     // Runs the live passes in the order they were added; GL errors are thrown with the pass's name. kept:
-    // what earlier frames made, and where this one's goes; null: every live pass runs. observer: told
-    // of each texture and buffer that a pass has written, right after it; null: none.
+    // what earlier frames made, and where this one's goes; null: every live pass runs.
+    // observer: told of each texture and buffer that a pass has written, right after it; null: none.
     void execute(gl::PassTimer& timer, KeptContents* kept = nullptr, PassObserver* observer = nullptr);
     // What execute() would do where every condition held, without doing it: the names of the passes that
     // would run, and how much is allocated at once, bytes, in an empty pool. keeps: all that is worth keeping

@@ -38,11 +38,11 @@ void add_seals(const PassContext& context, gpu::PointStore& store) {
 ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
     const ContentKey content = store.content();
     if (!store.any_changed()) {
-        return {graph.import_buffer("points", store.points(), content, k_point_floats),
-                graph.import_buffer("large triangles", store.triangles(), content, k_all_floats)};
+        return {graph.import_buffer("points", store.points(), k_point_floats, content),
+                graph.import_buffer("large triangles", store.triangles(), k_all_floats, content)};
     }
-    ScenePoints out{graph.import_buffer("points", store.points(), {}, k_point_floats),
-                    graph.import_buffer("large triangles", store.triangles(), {}, k_all_floats)};
+    ScenePoints out{graph.import_buffer("points", store.points(), k_point_floats),
+                    graph.import_buffer("large triangles", store.triangles(), k_all_floats)};
     graph.add_pass("points", [&](PassBuilder& builder) {
         out.points = builder.write(out.points, content);
         out.triangles = builder.write(out.triangles, content);

@@ -207,7 +207,7 @@ TEST_F(Kept, AContentsKeyOfAnImportedBufferStandsForIt) {
     gl::Buffer numbers("numbers", 64, GL_DYNAMIC_STORAGE_BIT);
     const auto frame_of = [&](const ContentKey& content) {
         FrameGraph graph(pool_);
-        const BufferHandle imported = graph.import_buffer("numbers", numbers, content);
+        const BufferHandle imported = graph.import_buffer("numbers", numbers, {}, content);
         TextureHandle made;
         graph.add_pass("use", [&](PassBuilder& builder) {
             builder.read(imported);
