@@ -99,8 +99,7 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
-    bool many_scenes = false;       // otherwise one
-    bool must_meet_checks = false;  // the program ends with 1 where one of its checks is not met
+    bool many_scenes = false;  // otherwise one
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

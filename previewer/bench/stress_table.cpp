@@ -36,6 +36,26 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
+// What --check-finite adds to a frame of the scene that was given, or of the room: both in turn, so that the
+// machine's mood falls on both.
+Table check_cost(const BenchInputs& inputs) {
+    FrameBench bench = inputs.bench(inputs.scene);
+    const Settings plain = inputs.settings();
+    Settings checked = plain;
+    checked.check_finite = true;
+    Samples without;
+    Samples with;
+    for (int i = 0; i < inputs.repeat(); ++i) {
+        without.ms.push_back(bench.measure(plain, 1, Measure::frame).frame.best());
+        with.ms.push_back(bench.measure(checked, 1, Measure::frame).frame.best());
+    }
+    return {.title = "Cost of --check-finite",
+            .note = fmt::format("{}, {}x{} pixels; medians of {} frames each, in turn.", inputs.scene.name,
+                                plain.width, plain.height, inputs.repeat()),
+            .columns = {{"frame", "ms"}, {"checked", "ms"}, {"over it", ""}},
+            .rows = {{without.median(), with.median(), with.median() / without.median()}}};
+}
+
 }  // namespace
 
 void measure_stress(const BenchInputs& inputs, BenchReport& report) {
@@ -70,6 +90,7 @@ void measure_stress(const BenchInputs& inputs, BenchReport& report) {
         const stress::StressResult result = run_case(one, run);
         const bool good = result.verdict.as_expected && result.finite;
         as_expected += good ? 1 : 0;
+        report.bounds_broken += good ? 0 : 1;
         log::info("{:<8}{}: {}", good ? "as must" : "NOT", one.name, result.verdict.got);
         table.rows.push_back({one.name, one.expected, result.verdict.got, good ? "yes" : "NO",
                               result.finite ? "none" : "FOUND",
@@ -82,6 +103,9 @@ void measure_stress(const BenchInputs& inputs, BenchReport& report) {
     report.checks.push_back({"cases as expected", static_cast<double>(as_expected), Check::Kind::at_least,
                              static_cast<double>(table.rows.size()), ""});
     report.tables.push_back(std::move(table));
+    if (inputs.options.only.empty()) {
+        report.tables.push_back(check_cost(inputs));
+    }
 }
 
 }  // namespace bounce::bench

@@ -843,7 +843,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     }
 
     std::optional<passes::FiniteCheck> check;
-    if (settings.check_finite) {
+    if (settings.check_finite && !plans_only_) {
         check.emplace(programs_, settings.width, settings.height);
     }
     if (plans_only_) {

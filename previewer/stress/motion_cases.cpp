@@ -24,8 +24,9 @@ SceneFile stage() {
     SceneFile file;
     file.place(ground(3.0F), file.material(glm::vec3(0.8F)));
     file.light({{"type", "point"}, {"power_w", 60.0}, {"radius_m", 0.0}},
-               glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, 1.5, 0.7)));
-    file.camera({0.3, 1.6, 2.2}, {0.0, 0.2, 0.0});
+               glm::translate(glm::dmat4(1.0), glm::dvec3(1.013, 1.507, 0.717)));
+    // Neither is in line with a face: rounding would decide what of it is seen.
+    file.camera({0.351, 1.607, 2.203}, {0.0, 0.2, 0.0});
     return file;
 }
 
@@ -164,7 +165,8 @@ Verdict keys_at_one_time(StressRun& run) {
 }
 
 Verdict all_keys_at_one_time(StressRun& run) {
-    return keyed_at(run, keyed({0.5F, 0.5F, 0.5F}, {0.1F, 0.2F, 0.4F}), 3.0, 0.4F);
+    const SceneFile file = keyed({0.5F, 0.5F, 0.5F}, {0.1F, 0.2F, 0.4F});
+    return both(keyed_at(run, file, 3.0, 0.1F), keyed_at(run, file, 9.0, 0.4F));
 }
 
 Verdict one_key(StressRun& run) {

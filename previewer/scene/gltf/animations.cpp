@@ -33,12 +33,13 @@ void require_finite(const std::vector<float>& numbers, const std::string& whose)
     }
 }
 
-// Of keys at the same time the last counts: exporters write them where a curve jumps.
+// Exporters write several keys at the same time where a curve jumps: the first is where it comes from, the
+// last where it goes on; those between are never seen.
 void merge_equal_times(AnimationSampler& sampler) {
     const size_t width = sampler.values.size() / sampler.times.size();
     size_t kept = 0;
     for (size_t i = 0; i < sampler.times.size(); ++i) {
-        if (kept > 0 && sampler.times[kept - 1] == sampler.times[i]) {
+        if (kept > 1 && sampler.times[kept - 2] == sampler.times[i]) {
             --kept;
         }
         sampler.times[kept] = sampler.times[i];

@@ -258,13 +258,15 @@ TEST_F(AnimatedFile, WhatCannotBePlayedWarns) {
 
 TEST_F(AnimatedFile, KeysAtTheSameTime) {
     builder_.triangle_node();
-    const int times = builder_.accessor<float>({0, 1, 1, 2}, "SCALAR");
-    const int outputs = builder_.accessor<float>({0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}, "VEC3");
+    const int times = builder_.accessor<float>({0, 1, 1, 1, 2}, "SCALAR");
+    const int outputs = builder_.accessor<float>({0, 0, 0, 1, 0, 0, 9, 0, 0, 5, 0, 0, 6, 0, 0}, "VEC3");
     builder_.add("animations",
                  {{"samplers", {{{"input", times}, {"output", outputs}}}},
                   {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
     const Scene scene = builder_.load().scene;
-    EXPECT_EQ(scene.animations[0].samplers[0].times, (std::vector<float>{0, 1, 2}));
+    EXPECT_EQ(scene.animations[0].samplers[0].times, (std::vector<float>{0, 1, 1, 2}));
+    EXPECT_EQ(evaluate_pose(scene, 0.5).world_from_node[0][3].x, 0.5) << "towards the first of them";
+    EXPECT_EQ(evaluate_pose(scene, 1.0).world_from_node[0][3].x, 5.0);
     EXPECT_EQ(evaluate_pose(scene, 1.5).world_from_node[0][3].x, 5.5);
 }
 
