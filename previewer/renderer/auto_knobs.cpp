@@ -36,8 +36,9 @@ KnobCurve importance_curve(const AutoScene& scene) {
 KnobCurve shadow_curve(const AutoScene& scene) {
     // A sun's map is as wide as the scene; a lamp's as its cone.
     const bool wide = scene.features.sun_lights > 0 && scene.seen_share < k_little_seen;
-    return wide ? KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 1.7e-3}, {512, 5e-3}, {256, 2.8e-2}}}
-                : KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 3e-5}, {512, 1e-4}, {256, 2e-4}}};
+    return wide
+               ? KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 1.7e-3}, {512, 5e-3}, {256, 2.8e-2}}}
+               : KnobCurve{Knob::shadow_size, {{2048, 0.0, true}, {1024, 3e-5}, {512, 1e-4}, {256, 2e-4}}};
 }
 
 KnobCurve world_curve(Technique technique) {
