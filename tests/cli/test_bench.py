@@ -114,6 +114,23 @@ def test_reuse_of_light(bounce, tmp_path):
     assert light["FLIP with reuse"] == light["FLIP a step"]
 
 
+def test_auto_against_presets(bounce, scene, tmp_path):
+    """A square that nothing hides: every preset draws the same, so auto is among the best; of two scenes each counts."""
+    arguments = ["--quick", "--size", "16x9", "--budgets", "60000"]
+    result = bounce("bench", "auto", scene, scene, "-o", "out", *arguments)
+    assert result.returncode == 0, result.stderr
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    tables = {table["title"]: table for table in results["tables"]}
+    assert len(tables["scene, 16x9"]["rows"]) == 7 and "our own mean" in tables["scene, 16x9"]["note"]
+    assert [row[-1] for row in tables["Is auto best"]["rows"]] == ["auto is best"] * 2
+    assert "--technique" in tables["What auto chose"]["rows"][0][-1]
+    assert results["checks"][0]["value"] == results["checks"][0]["limit"] == 2
+    refused = bounce("bench", "rates", scene, scene, "-o", "out", "--quick")
+    assert refused.returncode == 2 and "one scene; 2 were given" in refused.stderr
+    refused = bounce("bench", "auto", scene, "-o", "out", "--sizes", "8x8,9x9", "--budgets", "1,2,3")
+    assert refused.returncode == 2 and "2 sizes for 3 budgets" in refused.stderr
+
+
 def test_samplers_of_lights(bounce, tmp_path):
     """Chains of one proposal are uniform sampling; ratios are of the figures beside them; checks follow from the table."""
     result = bounce("bench", "vpl-sampling", "-o", "out", *TINY)
