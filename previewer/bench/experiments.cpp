@@ -104,7 +104,8 @@ const std::vector<Experiment>& experiments() {
          "mean radiance of closed white rooms by albedo, bounces and their source, against the exact one",
          measure_furnace},
         {"invariance", "Pictures of scenes told in other numbers",
-         "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes make",
+         "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes "
+         "make",
          measure_invariance, true},
     };
     return all;

@@ -34,8 +34,9 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
-    bool generated = false;  // no scene was given: the room was made
-    bool quick = false;      // few values, small picture, one repetition
+    std::vector<std::string> changes;  // invariance: only these; all where there are none
+    bool generated = false;            // no scene was given: the room was made
+    bool quick = false;                // few values, small picture, one repetition
 };
 
 struct BenchInputs {

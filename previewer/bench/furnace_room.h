@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Closed empty rooms whose light is known: every wall is one diffuse white, and what one sends the others get.
+// Closed empty rooms whose light is known: every wall is one diffuse white, and what one sends the others
+// get.
 #pragma once
 
 #include <vector>

@@ -62,8 +62,8 @@ ExitCode run_bench(BenchArguments arguments) {
         std::tie(arguments.options.width, arguments.options.height) = parse_size(arguments.size);
     }
     if (arguments.scenes.size() > 1 && !experiment.many_scenes) {
-        throw usage_error(fmt::format("experiment {} takes one scene, not {}", experiment.name,
-                                      arguments.scenes.size()));
+        throw usage_error(
+            fmt::format("experiment {} takes one scene, not {}", experiment.name, arguments.scenes.size()));
     }
     const std::vector<scene::Scene> scenes = bench_scenes(arguments);
     arguments.options.generated = arguments.scenes.empty();
@@ -144,6 +144,8 @@ void add_bench(CLI::App& app, Run& run) {
                      "avg-table1, avg-table2: the paper's screens over this; 1 by default, 2 on a software "
                      "driver")
         ->check(CLI::Range(1, 8));
+    command->add_option("--change", options.changes,
+                        "invariance: make this change alone, as the table names it; may be given again");
     command->add_flag("--quick", options.quick,
                       "Few values, 160x90 pixels, once each: to see that it works, not to measure");
     add_scene_source_options(*command, arguments->source);

@@ -747,9 +747,8 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
     }
     // As sort_by_name() in pipeline.cpp.
-    std::stable_sort(
-        ray_lights.begin(), ray_lights.end(),
-        [](const AvgRayLight& a, const AvgRayLight& b) { return a.setup.name < b.setup.name; });
+    std::stable_sort(ray_lights.begin(), ray_lights.end(),
+                     [](const AvgRayLight& a, const AvgRayLight& b) { return a.setup.name < b.setup.name; });
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, choice);
     const AvgInputs avg = prepare_avg(ray_lights, settings, plan);

@@ -102,8 +102,8 @@ std::vector<bool> standing(const Scene& scene) {
     }
     for (const int index : scene.topological_order) {
         const Node& node = scene.nodes[at(index)];
-        still[at(index)] = node.visible && !moving.contains(index) &&
-                           (node.parent == k_none || still[at(node.parent)]);
+        still[at(index)] =
+            node.visible && !moving.contains(index) && (node.parent == k_none || still[at(node.parent)]);
     }
     return still;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The same scene told in other numbers: its picture must not change, or change by a known factor. For tests
-// of that, and for `bounce bench invariance`. Each takes a scene and gives it back changed, animation and all.
+// of that, and for `bounce bench invariance`. Each takes a scene and gives it back changed, animation and
+// all.
 #pragma once
 
 #include <glm/glm.hpp>

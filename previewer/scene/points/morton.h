@@ -21,9 +21,9 @@ inline uint32_t morton(const glm::uvec3& v) {
     return code;
 }
 
-// The code of a place in a box of 1021 cells a side. Borders of cells lie where no half, third or tenth of the
-// box does: what stands there by design has the same code however its numbers are rounded. Nor do roundings
-// across a flat box count.
+// The code of a place in a box of 1021 cells a side. Borders of cells lie where no half, third or tenth of
+// the box does: what stands there by design has the same code however its numbers are rounded. Nor do
+// roundings across a flat box count.
 inline uint32_t morton_in_box(const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
     const glm::dvec3 side = high - low;
     const double longest = std::max({side.x, side.y, side.z});
