@@ -97,6 +97,9 @@ const std::vector<Experiment>& experiments() {
          measure_avg_stages},
         {"avg-table2", "Approximate visibility grids against screen size",
          "frames a second of preset avg2012 against screen size (Table II of 2012)", measure_avg_screens},
+        {"leaving-out", "What leaving out saves",
+         "time and memory of frames with everything done that the scene does not need, and without",
+         measure_leaving_out},
         {"vpl-sampling", "Samplers of virtual point lights",
          "time, mean, flicker and error of each --vpl-sampling (Table 2, Figures 6 to 8 of 2013)",
          measure_vpl_sampling},
@@ -107,6 +110,12 @@ const std::vector<Experiment>& experiments() {
          "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes "
          "make",
          measure_invariance, true},
+        {"auto", "Preset auto within a time a frame",
+         "time and error of preset auto within --budgets against every other preset's; takes many scenes",
+         measure_auto_budgets, true},
+        {"stress", "Stiff and extreme scenes",
+         "whether each of some sixty generated scenes comes out as it must; ends with 1 where one does not",
+         measure_stress, false, true},
     };
     return all;
 }

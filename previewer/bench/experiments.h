@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/bench_report.h"
@@ -35,16 +36,22 @@ struct BenchOptions {
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
     std::vector<std::string> changes;  // invariance: only these; all where there are none
-    bool generated = false;            // no scene was given: the room was made
-    bool quick = false;                // few values, small picture, one repetition
+    // auto: times a frame, and the picture's size for each, or for all.
+    std::vector<double> budgets_ms{33.0, 100.0, 250.0};
+    std::vector<std::pair<int, int>> sizes;
+    std::string
+        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;        // stress: cases whose names hold this
+    bool generated = false;  // no scene was given: the room was made
+    bool quick = false;      // few values, small picture, one repetition
 };
 
 struct BenchInputs {
-    const scene::Scene& scene;  // the first of them
-    std::span<const scene::Scene> scenes;
+    const scene::Scene& scene;
     const BenchOptions& options;
     gl::TimingMode timing;
     const InterruptGuard& interrupts;
+    std::span<const scene::Scene> scenes;  // all that were given; the first is `scene`
 
     // The frame that was asked for, or the scene's first.
     [[nodiscard]] double frame() const { return frame_of(scene); }
@@ -77,9 +84,12 @@ void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report
 void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
+void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
+void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
 void measure_furnace(const BenchInputs& inputs, BenchReport& report);
 void measure_invariance(const BenchInputs& inputs, BenchReport& report);
+void measure_stress(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
 // experiments take of memory. Empty where it is.
@@ -90,7 +100,8 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
-    bool many_scenes = false;  // takes more than one
+    bool many_scenes = false;  // otherwise one
+    bool must_meet_checks = false;  // the program ends with 1 where one of its checks is not met
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

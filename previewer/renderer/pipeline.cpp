@@ -13,6 +13,7 @@
 #include "passes/convolution_shadow.h"
 #include "passes/direct_light.h"
 #include "passes/emitter_lights.h"
+#include "passes/float_layouts.h"
 #include "passes/gbuffer.h"
 #include "passes/irsm.h"
 #include "passes/ism.h"
@@ -124,7 +125,7 @@ passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer
 passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                          const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
-    world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    world.vpls = graph.import_buffer("world lights", *in.world_lights, passes::k_vpl_floats, in.world_content);
     if (in.sphere.cells != nullptr) {
         world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
     }
@@ -156,7 +157,8 @@ passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const pas
 passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs& in,
                                          const passes::ScenePoints& scene, size_t light) {
     passes::ImperfectMaps maps = in.imperfect[light];
-    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light]);
+    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light], passes::k_vpl_floats,
+                                        in.places_content[light]);
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
@@ -168,8 +170,8 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
 
 // The lights on emissive surfaces and their shadow maps.
 passes::VplSet add_emitters(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
-    passes::VplSet emitters =
-        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.emitters.lights);
+    passes::VplSet emitters = passes::add_emitter_lights(graph, in.context, *in.emitter_store,
+                                                         in.points->content(), in.emitters.lights);
     if (in.plan.emitters_occluded) {
         emitters.atlas = add_maps(graph, in, scene, emitters).atlas;
     }
@@ -194,6 +196,7 @@ passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgG
             .paths = in.settings.avg_paths,
             .numbers = in.avg.numbers,
             .sequences = k_avg_sequences,
+            .rays = in.avg.rays_content,
             .bounce = number,
             .glossy = in.plan.glossy};
 }

@@ -284,7 +284,7 @@ def test_unknown_change_lists_the_known(bounce, tmp_path):
 
 
 def test_one_scene_where_one_is_taken(bounce, tmp_path):
-    refused(bounce("bench", "rates", "a.glb", "b.glb", "-o", "out", *TINY), "one scene, not 2")
+    refused(bounce("bench", "rates", "a.glb", "b.glb", "-o", "out", *TINY), "one scene; 2 were given")
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):

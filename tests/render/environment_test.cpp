@@ -153,6 +153,9 @@ TEST_F(EnvironmentImage, LightsDrawnFromItsCellsGatherTheSame) {
         scene::Scene scene = under(cases[i].first, 256, 3.0F);
         scene.world.world_from_environment = glm::quat_cast(glm::dmat3(rotated(40.0, {0.0, 0.0, 1.0})));
         add_mesh_node(scene, add_square(scene, 20.0F, add_diffuse(scene, glm::vec3(0.5F))), glm::dmat4(1.0));
+        // One renderer for all: what takes long is to make it, its programs and the image's maps.
+        Renderer renderer(scene);
+        const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
         for (const VplSampling sampling :
              {VplSampling::inverse_transform, VplSampling::inverse3, VplSampling::uniform3,
               VplSampling::metropolis, VplSampling::metropolis_single, VplSampling::resampled}) {
@@ -162,7 +165,7 @@ TEST_F(EnvironmentImage, LightsDrawnFromItsCellsGatherTheSame) {
                 settings.vpl_sampling = sampling;
                 settings.vpl_importance = importance;
                 settings.importance_pixels = 5.0F;
-                const Rendered r = draw(scene, camera_from_above(4.0, 50.0), settings);
+                const Rendered r = draw(renderer, pose, camera_from_above(4.0, 50.0), settings);
                 // 5 %: of 2,048 lights few are in the patch where they are drawn evenly, and Metropolis has
                 // its bias; the others are within 2 %.
                 const bool coarse = sampling == VplSampling::uniform3 ||

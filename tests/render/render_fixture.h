@@ -106,10 +106,8 @@ struct Rendered {
     }
 };
 
-inline Rendered draw(const scene::Scene& scene, const CameraView& camera, const Settings& settings,
-                     double time_s = 0.0) {
-    Renderer renderer(scene);
-    const scene::Pose pose = scene::evaluate_pose(scene, time_s);
+inline Rendered draw(Renderer& renderer, const scene::Pose& pose, const CameraView& camera,
+                     const Settings& settings) {
     Rendered out;
     out.report = renderer.render(pose, camera, settings);
     out.image = renderer.read_color();
@@ -120,6 +118,12 @@ inline Rendered draw(const scene::Scene& scene, const CameraView& camera, const 
         }
     }
     return out;
+}
+
+inline Rendered draw(const scene::Scene& scene, const CameraView& camera, const Settings& settings,
+                     double time_s = 0.0) {
+    Renderer renderer(scene);
+    return draw(renderer, scene::evaluate_pose(scene, time_s), camera, settings);
 }
 
 }  // namespace bounce::test
