@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
-               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling", "stress"]
+               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling", "leaving-out", "furnace", "invariance", "stress"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -286,6 +286,24 @@ def test_no_column_of_the_page_is_out_of_sight(bounce, tmp_path):
         window.resize(420, 900)
         window.wait("document.documentElement.scrollWidth <= 420")
         assert window.errors == []
+
+
+def test_a_changed_scene_has_the_same_picture(bounce, tmp_path):
+    result = bounce("bench", "invariance", "-o", "out", *TINY, "--change", "move 1e6", "--change", "reorder")
+    assert result.returncode == 0, result.stdout + result.stderr
+    (table,) = json.loads((tmp_path / "out" / "results.json").read_text())["tables"]
+    rows = [dict(zip((column["name"] for column in table["columns"]), row)) for row in table["rows"]]
+    assert [(row["settings"], row["change"]) for row in rows] == [
+        (settings, change) for change in ("move 1e6", "reorder") for settings in ("default", "rsm2005")]
+    assert all(row["held"] == "yes" and row["relMSE"] <= row["bound"] and row["not finite"] == 0 for row in rows)
+
+
+def test_unknown_change_lists_the_known(bounce, tmp_path):
+    refused(bounce("bench", "invariance", "-o", "out", *TINY, "--change", "scale 7"), "'scale 7'", "'scale 1e-3'", "'reorder'")
+
+
+def test_one_scene_where_one_is_taken(bounce, tmp_path):
+    refused(bounce("bench", "rates", "a.glb", "b.glb", "-o", "out", *TINY), "one scene; 2 were given")
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):
