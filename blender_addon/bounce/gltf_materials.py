@@ -84,12 +84,11 @@ def set_encoding(texture_info, shader_sockets):
 
 
 def finish_primitives(mesh, blender_materials, export):
-    default = None
     for primitive in mesh.primitives:
         if primitive.material is None:
-            default = default or _default_material()
-            primitive.material = default
-        _drop_unused_attributes(primitive, export)
+            export.default_material = export.default_material or _default_material()
+            primitive.material = export.default_material
+        _drop_unused_attributes(mesh.name, primitive, export)
 
 
 def _default_material():
@@ -104,15 +103,18 @@ def _default_material():
     )
 
 
-def _drop_unused_attributes(primitive, export):
+def _drop_unused_attributes(name_of_mesh, primitive, export):
     model = _model_of(primitive.material, export)
     unused = set()
     if model is None or model.color_attribute is None:
         unused.add("COLOR_0")
-    if model is None or not model.normal_map:
+    # Unlike a colour, which glTF multiplies into the material whether that says so or not, it changes nothing.
+    if (model is None or not model.normal_map) and not export.options.keep_all:
         unused.add("TANGENT")
     if not unused & set(primitive.attributes):
         return
+    if "TANGENT" in unused & set(primitive.attributes):
+        export.left_out.append((name_of_mesh, "tangents", "its material has no normal map"))
     # Accessors are shared with primitives of other materials, whose compressed vertices may be others.
     primitive.attributes = {
         name: copy.copy(accessor) for name, accessor in primitive.attributes.items() if name not in unused
