@@ -71,7 +71,7 @@ def _share_accessors(mesh, known):
 
 def _share_images(materials):
     images, textures, told = {}, {}, set()
-    for info in _texture_infos(materials):
+    for info in texture_infos(materials):
         texture = info.index
         if texture is None or texture.source is None:
             continue
@@ -84,7 +84,8 @@ def _share_images(materials):
         info.index = textures.setdefault(content(texture, {"Image"}), texture)
 
 
-def _texture_infos(materials):
+def texture_infos(materials):
+    """Of glTF materials every place that names a texture."""
     for material in materials:
         owners = [(material, _MATERIAL_TEXTURES), (material.pbr_metallic_roughness, _PBR_TEXTURES)]
         for owner, names in owners:

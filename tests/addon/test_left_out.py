@@ -66,6 +66,9 @@ def test_what_nothing_reads_is_not_there(pair):
         assert set(primitive["attributes"]) == {"POSITION", "NORMAL"}
     assert "TEXCOORD_2" in pair.all.json["meshes"][mesh_of(pair.all, "Rock 0")]["primitives"][0]["attributes"]
     assert "TEXCOORD_0" in pair.gltf.json["meshes"][mesh_of(pair.gltf, "Board 0")]["primitives"][0]["attributes"]
+    image, plain = ({name for name in p["attributes"]} for p in
+                    pair.gltf.json["meshes"][mesh_of(pair.gltf, "Half")]["primitives"])
+    assert "TEXCOORD_0" in image and "TEXCOORD_0" not in plain
     assert not {"Nobody's", "Hidden one's"} & names(pair.gltf, "materials")
     assert [m.get("name") for m in pair.gltf.json["materials"]].count("Default") == 1
     for key in (("Rock 0", "UV map 'Third UV'"), ("Rock 0", "colour attribute 'Paint'"), ("Nobody's", "material"),

@@ -69,6 +69,18 @@ def textured():
                     (i - 1.0, -1.5, 0.2), 0.4)
 
 
+def half_textured():
+    """Of two faces one shows an image."""
+    mesh = bpy.data.meshes.new("Half")
+    mesh.from_pydata([(0, 0, 0), (0.4, 0, 0), (0.4, 0.4, 0), (0, 0.4, 0), (0.8, 0, 0), (0.8, 0.4, 0)], [],
+                     [(0, 1, 2, 3), (1, 4, 5, 2)])
+    mesh.uv_layers.new(name="UVMap")
+    mesh.materials.append(bpy.data.materials["Boards 2"])
+    mesh.materials.append(bpy.data.materials["Grey"])
+    mesh.polygons[1].material_index = 1
+    truth.link("Half", mesh, location=(1.6, 1.2, 0.2))
+
+
 def unread():
     for name in ("Nobody's", "Hidden one's"):
         made = material(name, image=picture(f"Image of {name}"))
@@ -111,6 +123,7 @@ truth.new_scene(END, START)
 mesh_object("Floor", bpy.ops.mesh.primitive_plane_add, material("Floor"), (0.0, 0.0, 0.0), 4.0)
 twice()
 textured()
+half_textured()
 unread()
 still()
 lights()
