@@ -11,6 +11,7 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(glu REQUIRED IMPORTED_TARGET glu)
 pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
 pkg_check_modules(opencolorio REQUIRED IMPORTED_TARGET OpenColorIO)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(tinygltf REQUIRED IMPORTED_TARGET tinygltf)
 
 # GLM as Debian packs it is headers alone; these are its switches for the whole program.

@@ -92,6 +92,7 @@ struct BenchReport {
     std::vector<Plot> plots;
     std::vector<std::string> paper;  // what the paper says, with its hardware; sentences
     std::vector<std::string> notes;
+    int bounds_broken = 0;  // outcomes beyond what must hold: the command then ends with above_threshold
 };
 
 // With this many significant digits, without exponents: 0.0123, 1.23, 123, 12345. "not a number" for NaN.

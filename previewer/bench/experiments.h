@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/bench_report.h"
@@ -33,6 +35,12 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
+    // auto: times a frame, and the picture's size for each, or for all.
+    std::vector<double> budgets_ms{33.0, 100.0, 250.0};
+    std::vector<std::pair<int, int>> sizes;
+    std::string
+        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;        // stress: cases whose names hold this
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
@@ -42,9 +50,11 @@ struct BenchInputs {
     const BenchOptions& options;
     gl::TimingMode timing;
     const InterruptGuard& interrupts;
+    std::span<const scene::Scene> scenes;  // all that were given; the first is `scene`
 
     // The frame that was asked for, or the scene's first.
-    [[nodiscard]] double frame() const;
+    [[nodiscard]] double frame() const { return frame_of(scene); }
+    [[nodiscard]] double frame_of(const scene::Scene& of) const;
     [[nodiscard]] int repeat() const;
     // Defaults of the program with what the user gave; 640x360 without --size, a quarter of that with
     // --quick.
@@ -73,7 +83,12 @@ void measure_simplified_map_sizes(const BenchInputs& inputs, BenchReport& report
 void measure_pixel_lights(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_stages(const BenchInputs& inputs, BenchReport& report);
 void measure_avg_screens(const BenchInputs& inputs, BenchReport& report);
+void measure_auto_budgets(const BenchInputs& inputs, BenchReport& report);
+void measure_leaving_out(const BenchInputs& inputs, BenchReport& report);
 void measure_vpl_sampling(const BenchInputs& inputs, BenchReport& report);
+void measure_furnace(const BenchInputs& inputs, BenchReport& report);
+void measure_invariance(const BenchInputs& inputs, BenchReport& report);
+void measure_stress(const BenchInputs& inputs, BenchReport& report);
 
 // Why an atlas of the settings' maps is not drawn: larger than the driver's texture_size, or than what these
 // experiments take of memory. Empty where it is.
@@ -84,6 +99,8 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
+    bool many_scenes = false;  // otherwise one
+    bool must_meet_checks = false;  // the program ends with 1 where one of its checks is not met
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();
 

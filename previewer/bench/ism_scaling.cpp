@@ -161,7 +161,7 @@ void measure_ism_scaling(const BenchInputs& inputs, BenchReport& report) {
     const MeasuredFrame usual = bench.measure(inputs.settings(), 1, Measure::passes);
     BenchOptions fixed = inputs.options;
     fixed.points = usual.report.points_a_map;
-    const BenchInputs with_points{inputs.scene, fixed, inputs.timing, inputs.interrupts};
+    const BenchInputs with_points{inputs.scene, fixed, inputs.timing, inputs.interrupts, inputs.scenes};
     change_setting(report, "points a map", std::to_string(*fixed.points));
 
     Plot frames{.title = "Time of a frame",

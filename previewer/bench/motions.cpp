@@ -97,6 +97,22 @@ std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& set
     return out;
 }
 
+Motion turntable(const BenchInputs& inputs, const Settings& settings, double step_deg) {
+    const scene::Pose still = pose_at(inputs, inputs.frame());
+    const CameraView first =
+        scene_camera(inputs.scene, still, inputs.options.camera, settings.width, settings.height);
+    const glm::dvec3 middle = scene::world_bounds(inputs.scene, still).center();
+    return {"the camera, around a still set", false, [=](int frame) {
+                CameraView view = first;
+                const glm::dmat4 turn =
+                    glm::translate(glm::dmat4(1.0), middle) *
+                    glm::rotate(glm::dmat4(1.0), glm::radians(step_deg * frame), glm::dvec3(0.0, 1.0, 0.0)) *
+                    glm::translate(glm::dmat4(1.0), -middle);
+                view.world_from_camera = turn * first.world_from_camera;
+                return Shot{still, view};
+            }};
+}
+
 std::optional<Motion> walk_through(const BenchInputs& inputs, const Settings& settings) {
     const auto camera_of = [&inputs, settings](const scene::Pose& pose) {
         return scene_camera(inputs.scene, pose, inputs.options.camera, settings.width, settings.height);

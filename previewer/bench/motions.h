@@ -31,6 +31,9 @@ struct Motion {
 [[nodiscard]] std::vector<Motion> scene_motions(const BenchInputs& inputs, const Settings& settings,
                                                 double step, BenchReport& report);
 
+// The camera goes around the middle of the scene, `step_deg` a frame, in which all else stands still.
+[[nodiscard]] Motion turntable(const BenchInputs& inputs, const Settings& settings, double step_deg);
+
 // The camera goes its animated way through the scene, in which all else stands still: a walk-through. Nothing
 // where the animation does not move it.
 [[nodiscard]] std::optional<Motion> walk_through(const BenchInputs& inputs, const Settings& settings);

@@ -32,7 +32,7 @@ class Run {
         inputs_.interrupts.throw_if_interrupted("nothing is written");
         const FrameReport report = renderer_.render(
             shot.pose, shot.camera, settings_, reference != nullptr ? inputs_.timing : gl::TimingMode::off);
-        renderer_.keep_history();
+        renderer_.keep_frame();
         Image image = renderer_.read_color();
         if (reference != nullptr) {
             meter_.add(frame, image, reference, nullptr);

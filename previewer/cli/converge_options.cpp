@@ -46,10 +46,12 @@ void ConvergeOptions::add_to(CLI::App& command) {
         ->check(positive())
         ->group(group);
     command
-        .add_option("--target-relmse", relmse,
-                    "With --converge: enough is an estimated relMSE of this; with --time-limit whichever "
-                    "comes first. "
-                    "Alone it ends with a sentence where that would take more than an hour")
+        .add_option(
+            "--target-relmse", relmse,
+            "With --converge: enough is an estimated relMSE of this; with --time-limit whichever "
+            "comes first. "
+            "Alone it ends with a sentence where that would take more than an hour. Without --converge: "
+            "preset auto takes the cheapest settings that reach it by its curves")
         ->check(positive())
         ->group(group);
     command
@@ -61,10 +63,7 @@ void ConvergeOptions::add_to(CLI::App& command) {
 }
 
 void ConvergeOptions::check(const Settings& settings) const {
-    const char* target = seconds  ? "--time-limit"
-                         : relmse ? "--target-relmse"
-                         : passes ? "--passes"
-                                  : nullptr;
+    const char* target = seconds ? "--time-limit" : passes ? "--passes" : nullptr;
     if (!converge && target != nullptr) {
         throw usage_error(fmt::format("{} is a target of --converge; give both", target));
     }

@@ -18,8 +18,11 @@ struct ConvergeOptions {
     std::optional<int> passes;
 
     void add_to(CLI::App& command);
-    // Throws usage_error for a target without --converge, and for settings that a mean of passes cannot show.
+    // Throws usage_error for a limit without --converge (an error is preset auto's target then), and for
+    // settings that a mean of passes cannot show.
     void check(const Settings& settings) const;
+    // The error that a frame by itself is to reach: without --converge.
+    [[nodiscard]] std::optional<double> frame_target() const { return converge ? std::nullopt : relmse; }
     // Ten seconds where nothing was given.
     [[nodiscard]] ConvergeTarget target() const;
 };

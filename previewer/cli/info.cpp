@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/info_plan.h"
+#include "cli/render_options.h"
 #include "cli/scene_source.h"
+#include "core/error.h"
 #include "scene/gltf_loader.h"
 #include "scene/pose.h"
 #include "scene/scene_features.h"
@@ -26,6 +30,9 @@ struct InfoArguments {
     std::filesystem::path scene;
     SceneSourceOptions source;
     bool json = false;
+    bool plan = false;
+    RenderOptions render;
+    size_t own_options = 0;  // of the command; those after them are of `render`
 };
 
 // Everything `info` says, gathered once and printed in either form.
@@ -307,7 +314,22 @@ void print_summary(const Summary& summary) {
     }
 }
 
-ExitCode run_info(const InfoArguments& arguments) {
+// Options of how frames are drawn say nothing without a plan.
+void require_plan(const CLI::App& command, size_t own_options) {
+    const std::vector<const CLI::Option*> options = command.get_options();
+    for (size_t i = own_options; i < options.size(); ++i) {
+        const CLI::Option* option = options[i];
+        if (option->count() > 0) {
+            throw usage_error(
+                fmt::format("{} says how frames are drawn: give --plan beside it", option->get_name()));
+        }
+    }
+}
+
+ExitCode run_info(const CLI::App& command, const InfoArguments& arguments) {
+    if (!arguments.plan) {
+        require_plan(command, arguments.own_options);
+    }
     const std::filesystem::path file = resolve_scene(arguments.scene, arguments.source).gltf;
     const auto start = std::chrono::steady_clock::now();
     const scene::LoadResult loaded = scene::load_gltf(file);
@@ -317,10 +339,21 @@ ExitCode run_info(const InfoArguments& arguments) {
     const scene::Pose pose = scene::evaluate_pose(loaded.scene, 0.0, animation);
     const Summary summary{loaded, scene::scene_features(loaded.scene, animation),
                           scene::world_bounds(loaded.scene, pose), std::filesystem::file_size(file), load_ms};
+    std::optional<InfoPlan> plan;
+    if (arguments.plan) {
+        plan = info_plan(loaded.scene, arguments.render);
+    }
     if (arguments.json) {
-        fmt::print("{}\n", summary_json(summary).dump(2, ' ', false, json::error_handler_t::replace));
+        json all = summary_json(summary);
+        if (plan) {
+            all["plan"] = plan_json(*plan);
+        }
+        fmt::print("{}\n", all.dump(2, ' ', false, json::error_handler_t::replace));
     } else {
         print_summary(summary);
+        if (plan) {
+            print_plan(*plan);
+        }
     }
     return ExitCode::done;
 }
@@ -333,7 +366,14 @@ void add_info(CLI::App& app, Run& run) {
     command->add_option("SCENE", arguments->scene, "The scene: .glb, .gltf or .blend")->required();
     add_scene_source_options(*command, arguments->source);
     command->add_flag("--json", arguments->json, "Print JSON (schema bounce.info/1)");
-    command->callback([&run, arguments] { run = [arguments] { return run_info(*arguments); }; });
+    command->add_flag(
+        "--plan", arguments->plan,
+        "Also the passes of the first frame, what is left out and why, and the GPU memory it takes");
+    arguments->own_options = command->get_options().size();
+    arguments->render.add_to(*command);
+    command->callback([&run, command, arguments] {
+        run = [command, arguments] { return run_info(*command, *arguments); };
+    });
 }
 
 }  // namespace bounce::cli

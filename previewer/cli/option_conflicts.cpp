@@ -315,7 +315,9 @@ std::string option_conflict(const RenderOptions& o, const Settings& s) {
     if (s.technique != Technique::ism) {
         return splat_conflict(o, s);
     }
-    if (const char* option = bounce_option(o); option != nullptr && s.bounces == 1) {
+    // The world's light and that of emissive surfaces has its lights first, and then bounces.
+    const bool bounces = s.bounces > 1 || s.world_vpls > 0 || s.emitter_vpls > 0;
+    if (const char* option = bounce_option(o); option != nullptr && !bounces) {
         return fmt::format("{} is of further bounces; give --bounces 2 or more", option);
     }
     const std::string conflict = map_conflict(o, s);

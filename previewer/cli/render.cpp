@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "cli/auto_options.h"
 #include "cli/commands.h"
 #include "cli/converge_options.h"
 #include "cli/frame_list.h"
@@ -21,6 +25,7 @@
 #include "core/stopwatch.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "renderer/memory_fit.h"
 #include "renderer/renderer.h"
 #include "renderer/sampled_picture.h"
 #include "renderer/setting_names.h"
@@ -37,6 +42,7 @@ struct Arguments {
     int repeat = 1;
     bool pass_times = true;
     bool removed = false;
+    bool check_finite = false;
     SceneSourceOptions source;
     RenderOptions render;
     ViewOptions view;
@@ -95,6 +101,18 @@ void check_view(const Arguments& arguments, const scene::ViewSettings& view, con
     }
     (void)arguments.view.checked_over(
         {view.display_device, view.view_transform, view.look, view.exposure, view.gamma});
+}
+
+// A picture with holes is written all the same, for compare to find, but not silently.
+void warn_of_not_finite(const Image& image, int frame) {
+    size_t faulty = 0;
+    for (size_t i = 0; i < image.rgb.size(); i += 3) {
+        faulty += std::isfinite(image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2]) ? 0 : 1;
+    }
+    if (faulty > 0) {
+        log::warning("frame {}: {} pixels are not finite; --check-finite says in which pass they begin",
+                     frame, faulty);
+    }
 }
 
 // Renders `repeat` times after a warm-up where asked for, so that compiled shaders and pools are in place.
@@ -165,7 +183,32 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
         stats.report.notes = found.notes;
         stats.report.left_out = found.left_out;
     }
+    if (std::all_of(arguments.outputs.begin(), arguments.outputs.end(),
+                    [](const std::string& output) { return is_scene_linear(output); })) {
+        stats.report.left_out.push_back({"view transform", "every output is scene-linear"});
+    }
+    stats.report.left_out.push_back({"metrics", "nothing is compared (bounce compare, bounce evaluate)"});
     return stats;
+}
+
+// The settings with which the first, the middle and the last frame fit into --memory-limit.
+Settings fitted(Renderer& renderer, const scene::Scene& scene, const Arguments& arguments,
+                const std::vector<int>& frames, int animation, const Settings& settings) {
+    std::deque<scene::Pose> poses;  // that the moments refer to
+    std::vector<Moment> moments;
+    for (const size_t i : std::set<size_t>{0, frames.size() / 2, frames.size() - 1}) {
+        const scene::Pose& pose = poses.emplace_back(
+            scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation));
+        const CameraView camera =
+            scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
+        moments.push_back({pose, camera});
+    }
+    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * 1024.0 * 1024.0);
+    MemoryFit fit = fit_to_memory(renderer, moments, settings, frames.size() > 1, limit);
+    for (const std::string& change : fit.changes) {
+        log::info("note: to stay within {:g} MiB: {}", *arguments.render.memory_limit_mib, change);
+    }
+    return fit.settings;
 }
 
 ExitCode render(const CLI::App& command, Arguments arguments) {
@@ -183,7 +226,9 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     const scene::Scene& scene = loaded.scene;
     warn_of_unsupported(scene);
-    Settings settings = arguments.render.settings(scene);
+    AutoUse automatic = choose_automatically(arguments.render, scene, arguments.converge.frame_target());
+    Settings settings = automatic.used ? automatic.choice.settings : arguments.render.settings(scene);
+    settings.check_finite = arguments.check_finite;
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
@@ -191,6 +236,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     }
     check_view(arguments, scene.view, settings);
     arguments.converge.check(settings);
+    check_targets(arguments.render, arguments.converge);
     if (arguments.converge.converge && arguments.removed) {
         throw usage_error("--measure-removed is of a single frame; give no --converge beside it");
     }
@@ -213,8 +259,23 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     Renderer renderer(scene);
     glFinish();
     start.upload_ms = uploading.ms();
+    renderer.expect_frames(frames.size() > 1);
+    if (automatic.needs_trial()) {
+        try_automatic(renderer, scene, arguments.render, animation, frames, automatic);
+        settings = automatic.choice.settings;
+        require_within(device.limits, settings);
+    }
+    if (arguments.render.explain) {
+        print_choice(automatic);
+    }
+    if (arguments.render.memory_limit_mib) {
+        settings = fitted(renderer, scene, arguments, frames, animation, settings);
+    }
     const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
+    if (automatic.used) {
+        stats.chosen(automatic_json(automatic));
+    }
     Progress progress("render", static_cast<int>(frames.size()));
     const InterruptGuard interrupts;
     int written = 0;
@@ -240,7 +301,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
         FrameStats measured =
             measure_frame(renderer, {pose, camera}, before ? &*before : nullptr, settings, arguments, device,
                           frame == frames.front() ? &start.first_frame_ms : nullptr, picture);
-        renderer.keep_history();
+        renderer.keep_frame();
         frame_before = frame;
         measured.frame = frame;
         measured.time_s = time_s;
@@ -249,7 +310,9 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
                                                    : renderer.read_color();
         const size_t faulty =
             measured.converged ? measured.converged->faulty_pixels : picture.faulty_pixels();
-        if (faulty > 0) {
+        if (faulty == 0) {
+            warn_of_not_finite(image, frame);
+        } else {
             log::warning("frame {}: {} pixels are not finite, since one of their {} samples is not", frame,
                          faulty, measured.converged ? measured.converged->state.passes : settings.samples);
         }
@@ -313,6 +376,10 @@ void add_render(CLI::App& app, Run& run) {
     command->add_flag(
         "--measure-removed", arguments->removed,
         "With --stats: also how much of the indirect light bounding the lights' kernels takes away");
+    command->add_flag(
+        "--check-finite", arguments->check_finite,
+        "Search what each pass writes for NaN and infinities; where there are any, end with the "
+        "pass and the pixel instead of writing the frame");
     add_scene_source_options(*command, arguments->source);
     arguments->render.add_to(*command);
     arguments->render.add_still_to(*command);

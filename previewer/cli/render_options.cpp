@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include "cli/frame_list.h"
 #include "cli/option_conflicts.h"
 #include "core/error.h"
+#include "renderer/auto_scene.h"
 #include "renderer/presets.h"
 #include "renderer/setting_names.h"
 #include "renderer/settings_check.h"
@@ -115,10 +117,11 @@ void add_vpl_options(CLI::App& command, RenderOptions& o) {
         "transform with two or three, by Metropolis' chains weighed as the paper does, by their first "
         "proposal or with their start-up bias, or by chains that resample",
         name_of(d.vpl_sampling));
-    group.one_of("--vpl-importance", o.vpl_importance, setting_names<Importance>(),
-                 "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
-                 "unhidden, as in the 2013 paper",
-                 name_of(d.vpl_importance));
+    group.one_of(
+        "--vpl-importance", o.vpl_importance, setting_names<Importance>(),
+        "What these are drawn by: the flux that a texel reflects, or what the view shows of it, "
+        "unhidden, as in the 2013 paper; preset auto takes the view where it shows little of what is lit",
+        name_of(d.vpl_importance));
     group.number("--importance-pixels", o.importance_pixels,
                  "Pixels that the view is judged by, per cent of the picture's, above 0 to 10; at least 64 "
                  "of them and at most 16,384",
@@ -315,11 +318,11 @@ void RenderOptions::add_to(CLI::App& command) {
         "direct light only; rsm: one bounce gathered from reflective shadow maps, which nothing hides; ism: "
         "bounces by virtual point lights with imperfect shadow maps",
         name_of(Settings{}.technique));
-    group.one_of("--preset", preset, presets(),
-                 "Settings that belong together, from which single options may differ: auto is ours, the "
-                 "others are as "
-                 "in the papers on reflective and imperfect shadow maps",
-                 "auto");
+    group.one_of(
+        "--preset", preset, presets(),
+        "Settings that belong together, from which single options may differ: auto chooses by the scene "
+        "(--explain says what), the others are as in the papers",
+        "auto");
     group.number(
         "--world-vpls", world_vpls,
         fmt::format(
@@ -386,15 +389,31 @@ void RenderOptions::add_to(CLI::App& command) {
         fmt::format("Convolution shadows: terms of the Fourier series of a depth comparison, 1 to {}",
                     k_most_convolution_order),
         std::to_string(Settings{}.convolution_order));
+    const char* measured = "Settings by a budget (preset auto)";
     command
-        .add_option("--budget-ms", budget_ms,
-                    "Preset auto: the settings that win within so many milliseconds a frame, from --tuning")
+        .add_option(
+            "--budget-ms", budget_ms,
+            "The best settings for so many milliseconds a frame, by curves measured on other scenes; with "
+            "--tuning by those of this one")
         ->check(CLI::PositiveNumber)
-        ->group("Measured settings");
+        ->group(measured);
     command
         .add_option("--tuning", tuning,
-                    "Preset auto: the file tuning.json that bounce evaluate writes, for --budget-ms")
-        ->group("Measured settings");
+                    "The file tuning.json that bounce evaluate writes of a scene, for --budget-ms")
+        ->group(measured);
+    command
+        .add_option(
+            "--machine-speed", machine_speed,
+            "How many times as fast this machine is as the one that auto's times are of (docs/auto.md), "
+            "for --budget-ms: the same settings again. Without it a few frames on trial tell")
+        ->check(CLI::PositiveNumber)
+        ->group(measured);
+    command.add_flag("--explain", explain, "Says in words what preset auto has chosen, and why")
+        ->group(measured);
+    group.one_of("--force", force, setting_names<Forced>(),
+                 "Do what the scene does not need, to see what leaving it out saves: exact, all that leaves the "
+                 "picture the same to the bit; all, estimates as well",
+                 "nothing");
     group.on_off("--antialias", antialias, "Outlines smoothed as by Cycles' pixel filter");
     add_vpl_options(command, *this);
     add_ism_options(command, *this);
@@ -411,6 +430,13 @@ void RenderOptions::add_still_to(CLI::App& command) {
             "Cycles' pixel filter; N times as slow. More than 1 takes the place of --antialias",
             k_most_samples),
         std::to_string(Settings{}.samples));
+    command
+        .add_option(
+            "--memory-limit", memory_limit_mib,
+            "GPU memory that frames may take, MiB: settings are lowered until they fit, and what was given "
+            "up is said")
+        ->check(CLI::PositiveNumber)
+        ->group(k_light_transport_group);
 }
 
 Settings RenderOptions::settings_without_scene() const {
@@ -461,6 +487,7 @@ Settings RenderOptions::settings_without_scene() const {
     set(shadow_samples, out.shadow_samples);
     set(soft_shadow_size, out.soft_shadow_size);
     set(convolution_order, out.convolution_order);
+    set(force, setting_names<Forced>(), out.forced);
     set(show, setting_names<Show>(), out.show);
     set(light, out.shown_light);
     set(vpl, out.shown_vpl);
@@ -503,12 +530,80 @@ void RenderOptions::check() const {
     }
     throw_if_refused(settings_refusal(out));
     throw_if_refused(option_conflict(*this, out));
+    if (!automatic() && explain) {
+        throw usage_error(tuning.empty()
+                              ? fmt::format("--explain is of preset auto; --preset {} chooses nothing "
+                                            "by the scene",
+                                            *preset)
+                              : std::string("--explain is of what preset auto chooses by itself; "
+                                            "--tuning has the settings"));
+    }
+    if (machine_speed && !(budget_ms && tuning.empty())) {
+        throw usage_error("--machine-speed says what a budget is worth; give --budget-ms, without --tuning");
+    }
     if (const std::string refusal = layer_refusal(out); !refusal.empty()) {
         throw usage_error(fmt::format("--show {}: {}", name_of(out.show), refusal));
     }
 }
 
+bool RenderOptions::automatic() const {
+    return (!preset || presets().at(*preset) == Preset::automatic) && tuning.empty();
+}
+
+FixedKnobs RenderOptions::fixed_knobs() const {
+    FixedKnobs out;
+    const auto fix = [&](bool given, std::initializer_list<Knob> knobs) {
+        for (const Knob knob : knobs) {
+            out.set(bit_of(knob), out.test(bit_of(knob)) || given);
+        }
+    };
+    // Layers show what a technique makes, not only what it looks like.
+    fix(technique || (show && *show != name_of(Show::shaded)), {Knob::technique});
+    // Whoever turns one technique's own settings wants that technique.
+    const bool of_lights = vpls || bounce_vpls || interleave || near_field || glossy || bounce_source ||
+                           avg_size || avg_hits || avg_paths || vpl_sampling || vpl_importance ||
+                           importance_pixels || importance_floor || vpl_steps || shading || simplify ||
+                           simplify_error || visibility || ism_size || map_projection || points || splat ||
+                           large_triangles || hull || pull_push || pull_push_levels || pull_threshold ||
+                           push_threshold || temporal_reuse || bounces;
+    fix(of_lights || bounce_places, {Knob::technique});
+    fix(vpls.has_value(), {Knob::vpls});
+    fix(vpl_importance || vpl_sampling || importance_pixels || importance_floor, {Knob::importance});
+    fix(ism_size || map_projection || visibility || points, {Knob::ism_size});
+    fix(interleave || temporal_reuse, {Knob::interleave});
+    fix(antialias || samples_a_pixel, {Knob::antialias});
+    fix(shadow_size.has_value(), {Knob::shadow_size});
+    fix(rsm_size.has_value(), {Knob::rsm_size});
+    fix(samples.has_value(), {Knob::rsm_samples});
+    fix(world_vpls || world_sampling, {Knob::world_vpls});
+    fix(bounce_vpls || bounce_source, {Knob::bounce_vpls});
+    fix(emitter_vpls.has_value(), {Knob::emitter_vpls});
+    fix(shadow_samples || direct_shadows, {Knob::shadow_samples});
+    fix(soft_shadow_size || direct_shadows, {Knob::soft_shadow_size});
+    return out;
+}
+
+AutoRequest RenderOptions::auto_request(const scene::Scene& scene) const {
+    return {.base = typed_settings(scene),
+            .fixed = fixed_knobs(),
+            .budget_ms = budget_ms,
+            .target_relmse = std::nullopt,
+            .machine_speed = machine_speed.value_or(1.0)};
+}
+
+AutoScene RenderOptions::described(const scene::Scene& scene, const Settings& settings) const {
+    return describe_scene(scene, animation_index(scene), camera, settings.width, settings.height);
+}
+
+AutoChoice RenderOptions::choice(const scene::Scene& scene, const AutoRequest& request) const {
+    return choose_settings(described(scene, request.base), request);
+}
+
 Settings RenderOptions::settings(const scene::Scene& scene) const {
+    return automatic() ? choice(scene, auto_request(scene)).settings : typed_settings(scene);
+}
+
+Settings RenderOptions::typed_settings(const scene::Scene& scene) const {
     Settings out = settings_without_scene();
     out.width = scene.render.width;
     out.height = scene.render.height;

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gl/context.h"
+#include "renderer/auto_choice.h"
 #include "renderer/settings.h"
 #include "scene/scene.h"
 
@@ -26,8 +27,11 @@ struct RenderOptions {
     std::string animation;
     std::optional<std::string> preset;
     std::optional<std::string> technique;
-    std::optional<double> budget_ms;  // with the file `tuning`: with_tuning() puts its settings in
+    // Preset auto: with the file `tuning` with_tuning() puts its settings in, else auto's own model chooses.
+    std::optional<double> budget_ms;
     std::string tuning;
+    std::optional<double> machine_speed;
+    bool explain = false;
 
     // Reflective shadow maps.
     std::optional<std::string> samples;  // a number, or all
@@ -83,6 +87,8 @@ struct RenderOptions {
     std::optional<int> shadow_samples;
     std::optional<int> soft_shadow_size;
     std::optional<int> convolution_order;
+    std::optional<std::string> force;
+    std::optional<double> memory_limit_mib;
     std::optional<std::string> show;
     std::optional<int> light;
     std::optional<int> vpl;
@@ -93,15 +99,27 @@ struct RenderOptions {
     void add_still_to(CLI::App& command);
     // Refuses what is wrong whatever the scene, before it is read. Throws usage_error.
     void check() const;
+    // Whether preset auto chooses by the scene: no paper's preset was asked for, nor a file's settings.
+    [[nodiscard]] bool automatic() const;
     // The renderer's settings; the size is the scene's own where none was given. Throws usage_error, also for
-    // what the scene does not have.
+    // what the scene does not have. Preset auto's settings are as it chooses them with the budget, if one was
+    // given, at the machine speed that was given, else at 1.
     [[nodiscard]] Settings settings(const scene::Scene& scene) const;
+    // The same with the reasons. automatic() must be true. request: what auto_request() gives, with a speed
+    // or a target put in.
+    [[nodiscard]] AutoChoice choice(const scene::Scene& scene, const AutoRequest& request) const;
+    // What preset auto is asked for: what was typed stays.
+    [[nodiscard]] AutoRequest auto_request(const scene::Scene& scene) const;
+    [[nodiscard]] AutoScene described(const scene::Scene& scene, const Settings& settings) const;
     // Which animation to play (scene::k_all_animations for a file from Blender). Throws usage_error for
     // an unknown name.
     [[nodiscard]] int animation_index(const scene::Scene& scene) const;
 
   private:
     [[nodiscard]] Settings settings_without_scene() const;
+    // Preset auto: the standard settings.
+    [[nodiscard]] Settings typed_settings(const scene::Scene& scene) const;
+    [[nodiscard]] FixedKnobs fixed_knobs() const;
 };
 
 // Throws usage_error for settings that the driver cannot hold.

@@ -149,6 +149,9 @@ ordered_json settings_json(const Settings& s) {
                         {"emitter_vpls", s.emitter_vpls},
                         {"emitter_panels", s.emitter_panels},
                         {"transparent_layers", s.transparent_layers}};
+    if (s.forced != Forced::nothing) {
+        out["forced"] = name_of(s.forced);
+    }
     out["world_sampling"] = name_of(s.world_sampling);
     out["direct_shadows"] = name_of(s.direct_shadows);
     if (s.direct_shadows == DirectShadows::vpl || s.direct_shadows == DirectShadows::ism) {
@@ -262,6 +265,9 @@ void StatsFile::write(const std::filesystem::path& path) const {
                       {"upload_ms", start_.upload_ms},
                       {"first_frame_ms", start_.first_frame_ms}};
     out["settings"] = settings_json(settings_);
+    if (!automatic_.is_null()) {
+        out["auto"] = automatic_;
+    }
     out["frames"] = ordered_json::array();
     for (const FrameStats& frame : frames_) {
         out["frames"].push_back(frame_json(frame, settings_.width * settings_.height));

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/stopwatch.h"
 #include "gl/context.h"
 #include "renderer/converge.h"
@@ -42,6 +44,8 @@ class StatsFile {
         start_ = times;
         run_ = run;
     }
+    // How preset auto came to the settings (automatic_json()).
+    void chosen(nlohmann::ordered_json automatic) { automatic_ = std::move(automatic); }
     void add(FrameStats frame) { frames_.push_back(std::move(frame)); }
     // Atomically. Throws output_error.
     void write(const std::filesystem::path& path) const;
@@ -50,6 +54,7 @@ class StatsFile {
     std::string scene_;
     gl::DeviceInfo device_;
     Settings settings_;
+    nlohmann::ordered_json automatic_;  // null: auto has chosen nothing
     StartTimes start_;
     Stopwatch run_;
     std::vector<FrameStats> frames_;

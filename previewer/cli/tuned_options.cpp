@@ -99,15 +99,18 @@ RenderOptions with_tuning(const CLI::App& command, const RenderOptions& typed) {
     if (!typed.budget_ms && typed.tuning.empty()) {
         return typed;
     }
-    if (!typed.budget_ms || typed.tuning.empty()) {
+    if (!typed.budget_ms) {
         throw usage_error(
-            "--budget-ms and --tuning need each other: the file, which bounce evaluate writes as "
-            "tuning.json, "
-            "has the settings that win within a time a frame");
+            "--tuning needs --budget-ms: the file, which bounce evaluate writes as tuning.json, has the "
+            "settings "
+            "that win within a time a frame");
     }
     if (typed.preset && *typed.preset != "auto") {
         throw usage_error(fmt::format(
             "--preset {} and --budget-ms both choose the settings; give one of them", *typed.preset));
+    }
+    if (typed.tuning.empty()) {
+        return typed;  // by auto's own model
     }
     const Tuning tuning = read_tuning(typed.tuning);
     const TunedSettings& tuned = require_settings(tuning, typed);

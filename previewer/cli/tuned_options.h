@@ -10,8 +10,8 @@
 namespace bounce::cli {
 
 // The options as if the file's settings for the budget stood before what was typed: an option that was typed
-// counts. Without --budget-ms the options themselves. Throws usage_error where one of --budget-ms and
-// --tuning is given without the other, beside another preset than auto, or where what was typed goes with no
+// counts. Without --tuning the options themselves. Throws usage_error where --tuning is given without
+// --budget-ms, where the latter is beside another preset than auto, or where what was typed goes with no
 // setting of the file; input_error where the file cannot be used, has an option that does not exist or is not
 // one of how light is drawn, or has no budget so short. Says on stderr which settings are taken. command: the
 // subcommand that `typed` was parsed by.

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "cli/auto_options.h"
 #include "cli/commands.h"
 #include "cli/render_options.h"
 #include "cli/scene_source.h"
 #include "cli/tuned_options.h"
+#include "gl/context.h"
+#include "renderer/renderer.h"
 #include "scene/gltf_loader.h"
 #include "viewer/viewer.h"
 
@@ -27,6 +34,40 @@ scene::LoadResult load(const Arguments& arguments) {
     return loaded;
 }
 
+// How fast this machine draws the scene, told in a context of its own: the window's is not there yet.
+double machine_speed(const RenderOptions& options, const scene::Scene& scene, AutoUse& use) {
+    const gl::HeadlessContext context;
+    (void)gl::initialise_current_context();
+    Renderer renderer(scene);
+    renderer.expect_frames(true);
+    std::vector<int> frames;
+    for (int frame = scene.frames.start; frame <= std::max(scene.frames.end, scene.frames.start); ++frame) {
+        frames.push_back(frame);
+    }
+    try_automatic(renderer, scene, options, options.animation_index(scene), frames, use);
+    return *use.speed;
+}
+
+// Settings for the scene at its own size or the one that was asked for, or for a window of another size. The
+// first time the machine's speed is measured where a budget needs it.
+Settings choose(RenderOptions& options, const scene::Scene& scene, std::optional<glm::ivec2> size) {
+    RenderOptions sized = options;
+    if (size) {
+        sized.size = fmt::format("{}x{}", size->x, size->y);
+    }
+    AutoUse use = choose_automatically(sized, scene, std::nullopt);
+    if (!use.used) {
+        return sized.settings(scene);
+    }
+    if (use.needs_trial()) {
+        options.machine_speed = machine_speed(sized, scene, use);
+    }
+    if (options.explain && !size) {
+        print_choice(use);
+    }
+    return use.choice.settings;
+}
+
 ExitCode view(const CLI::App& command, Arguments arguments) {
     arguments.render = with_tuning(command, arguments.render);
     arguments.render.check();
@@ -36,7 +77,11 @@ ExitCode view(const CLI::App& command, Arguments arguments) {
     viewer::run_viewer({
         .scene = arguments.scene,
         .load = [&] { return load(arguments); },
-        .choose_settings = [&](const scene::Scene& scene) { return arguments.render.settings(scene); },
+        .choose_settings =
+            [&](const scene::Scene& scene, std::optional<glm::ivec2> size) {
+                return choose(arguments.render, scene, size);
+            },
+        .size_matters = arguments.render.budget_ms.has_value() && arguments.render.automatic(),
         .choose_animation =
             [&](const scene::Scene& scene) { return arguments.render.animation_index(scene); },
         .camera = arguments.render.camera,

@@ -115,7 +115,7 @@ const std::vector<SweepAxis>& sweep_axes() {
          "Sampling",
          "where in the reflective shadow map lights are taken from: --vpl-sampling, --vpl-importance, "
          "--rsm-pattern",
-         {{"drawn by importance", {"--technique", "ism"}},
+         {{"drawn by flux", {"--vpl-importance", "flux"}},
           {"drawn by what is seen", {"--vpl-importance", "view"}},
           {"inverse transform, seen", {"--vpl-importance", "view", "--vpl-sampling", "inverse3"}},
           {"Metropolis, seen", {"--vpl-importance", "view", "--vpl-sampling", "metropolis"}},

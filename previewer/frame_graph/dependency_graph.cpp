@@ -53,7 +53,7 @@ void DependencyGraph::keep(int pass) {
     passes_[at(pass)].side_effect = true;
 }
 
-std::vector<bool> DependencyGraph::live_passes() const {
+std::vector<bool> DependencyGraph::live_passes(const std::vector<bool>& at_hand) const {
     std::vector<int> pass_references(passes_.size());
     std::vector<int> readers(resources_.size());
     for (size_t i = 0; i < passes_.size(); ++i) {
@@ -62,13 +62,14 @@ std::vector<bool> DependencyGraph::live_passes() const {
     std::vector<int> unread;
     for (size_t i = 0; i < resources_.size(); ++i) {
         readers[i] = resources_[i].readers;
-        if (readers[i] == 0) {
+        if (readers[i] == 0 || (!at_hand.empty() && at_hand[i])) {
             unread.push_back(static_cast<int>(i));
         }
     }
     const auto strip_reads = [&](const Pass& pass) {
         for (const int resource : pass.reads) {
-            if (--readers[at(resource)] == 0) {
+            const bool counted = at_hand.empty() || !at_hand[at(resource)];
+            if (--readers[at(resource)] == 0 && counted) {
                 unread.push_back(resource);
             }
         }

@@ -19,7 +19,9 @@ class DependencyGraph {
 
     // True for each pass that runs: it has a side effect, or something that runs reads what it writes.
     // Counts references and strips what nothing refers to, backwards from the leaves.
-    [[nodiscard]] std::vector<bool> live_passes() const;
+    // at_hand: by resource, what is there already, so that nobody need write it for its readers; empty:
+    // nothing.
+    [[nodiscard]] std::vector<bool> live_passes(const std::vector<bool>& at_hand = {}) const;
 
     // Graphviz text, culled passes dashed.
     [[nodiscard]] std::string to_dot() const;

@@ -17,7 +17,25 @@ gl::Texture TransientPool::acquire_texture(const std::string& name, const gl::Te
     return texture;
 }
 
+void TransientPool::hold_idle(bool hold) {
+    if (!hold && hold_) {
+        clear();
+    }
+    hold_ = hold;
+}
+
 void TransientPool::release(gl::Texture texture) {
+    if (!hold_) {
+        // Its name comes back as another texture's.
+        const auto id = static_cast<int>(texture.id());
+        std::erase_if(framebuffers_, [id](const auto& entry) {
+            for (size_t i = 0; i < entry.first.size(); i += 2) {  // name and layer of each attachment
+                if (entry.first[i] == id) return true;
+            }
+            return false;
+        });
+        return;
+    }
     textures_.push_back({std::move(texture), frame_});
 }
 
@@ -33,6 +51,9 @@ gl::Buffer TransientPool::acquire_buffer(const std::string& name, size_t bytes) 
 }
 
 void TransientPool::release(gl::Buffer buffer) {
+    if (!hold_) {
+        return;
+    }
     buffers_.push_back({std::move(buffer), frame_});
 }
 
@@ -63,6 +84,13 @@ void TransientPool::end_frame() {
         // A new texture may get a dead one's name: framebuffers are known by those.
         framebuffers_.clear();
     }
+}
+
+size_t TransientPool::bytes() const {
+    size_t sum = 0;
+    for (const auto& idle : textures_) sum += idle.resource.bytes();
+    for (const auto& idle : buffers_) sum += idle.resource.bytes();
+    return sum;
 }
 
 void TransientPool::clear() {

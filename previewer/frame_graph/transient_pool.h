@@ -15,6 +15,9 @@ namespace bounce {
 // and the framebuffers made of them.
 class TransientPool {
   public:
+    // Where off, what a pass no longer needs is freed at once, so that other passes' textures of any kind
+    // take its memory; they are then made anew in each frame.
+    void hold_idle(bool hold);
     [[nodiscard]] gl::Texture acquire_texture(const std::string& name, const gl::TextureDesc& desc);
     void release(gl::Texture texture);
     [[nodiscard]] gl::Buffer acquire_buffer(const std::string& name, size_t bytes);
@@ -29,6 +32,8 @@ class TransientPool {
     void end_frame();
     // Drops everything; for a change of size.
     void clear();
+    // Of what is idle.
+    [[nodiscard]] size_t bytes() const;
 
   private:
     template <typename T>
@@ -38,6 +43,7 @@ class TransientPool {
     };
     std::vector<Idle<gl::Texture>> textures_;
     std::vector<Idle<gl::Buffer>> buffers_;
+    bool hold_ = true;
     int frame_ = 0;
     std::map<std::vector<int>, gl::Framebuffer> framebuffers_;
 };

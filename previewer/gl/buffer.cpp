@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "gl/debug_output.h"
 #include "gl/label.h"
 
 namespace bounce::gl {
@@ -14,6 +15,7 @@ Buffer::Buffer(const std::string& name, size_t bytes, GLbitfield flags, const vo
     glCreateBuffers(1, &id);
     object_ = Object<delete_buffer>(id);
     glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes_), bytes == 0 ? nullptr : data, flags);
+    throw_on_failed_allocation("the buffer " + name, bytes_);
     set_label(GL_BUFFER, id, name);
     allocation_ = Allocation(bytes_);
 }

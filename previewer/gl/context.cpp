@@ -68,17 +68,25 @@ HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
         throw no_opengl("EGL has no desktop OpenGL");
     }
-    constexpr std::array<EGLint, 9> context_attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                          4,
-                                                          EGL_CONTEXT_MINOR_VERSION,
-                                                          5,
-                                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                          EGL_CONTEXT_OPENGL_DEBUG,
-                                                          EGL_TRUE,
-                                                          EGL_NONE};
+    // A reset of the GPU is to be told of, and not to hang or to draw rubbish (gl::throw_on_lost_context()).
+    constexpr std::array<EGLint, 11> context_attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                           4,
+                                                           EGL_CONTEXT_MINOR_VERSION,
+                                                           5,
+                                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                           EGL_CONTEXT_OPENGL_DEBUG,
+                                                           EGL_TRUE,
+                                                           EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                                           EGL_LOSE_CONTEXT_ON_RESET,
+                                                           EGL_NONE};
     // No config: nothing is drawn to a surface (EGL_KHR_no_config_context).
     impl_->context = eglCreateContext(impl_->display, nullptr, EGL_NO_CONTEXT, context_attributes.data());
+    if (impl_->context == EGL_NO_CONTEXT) {
+        std::array<EGLint, 11> without = context_attributes;
+        without[without.size() - 3] = EGL_NONE;  // a driver that cannot tell
+        impl_->context = eglCreateContext(impl_->display, nullptr, EGL_NO_CONTEXT, without.data());
+    }
     if (impl_->context == EGL_NO_CONTEXT) {
         throw no_opengl("the driver offers no 4.5 core context");
     }

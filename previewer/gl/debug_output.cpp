@@ -2,6 +2,7 @@
 #include "gl/debug_output.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include <epoxy/gl.h>
@@ -9,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "gl/memory.h"
 
 namespace bounce::gl {
 namespace {
@@ -35,6 +37,32 @@ void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint /*id*/, GLenum sev
     }
 }
 
+bool is_out_of_memory() {
+    return g_first_error.find("GL_OUT_OF_MEMORY") != std::string::npos;
+}
+
+void forget_errors() {
+    g_first_error.clear();
+    // A lost context never has no error.
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+    }
+}
+
+[[noreturn]] void throw_pending(GLenum code, const std::string& what) {
+    forget_errors();
+    if (code == GL_CONTEXT_LOST) {
+        throw Error(
+            ExitCode::failed,
+            "the driver has reset the GPU, and with it what was being drawn; frames written before are "
+            "whole: start again behind them, with smaller settings where it happens again");
+    }
+    throw Error(
+        ExitCode::failed,
+        fmt::format("the GPU has no memory left for {}; frames written before are whole: lower --size, "
+                    "--vpls, --ism-size, --rsm-size or --shadow-size",
+                    what));
+}
+
 }  // namespace
 
 void install_debug_output() {
@@ -46,17 +74,40 @@ void install_debug_output() {
 
 void throw_on_debug_error(std::string_view where) {
     // A context without the debug bit may stay silent: ask the old way as well.
-    if (g_first_error.empty()) {
-        if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
-            g_first_error = fmt::format("error 0x{:04x}", code);
-        }
+    const GLenum code = glGetError();
+    if (g_first_error.empty() && code == GL_NO_ERROR) {
+        return;
     }
-    if (!g_first_error.empty()) {
-        const std::string message = fmt::format("OpenGL refused a call in {}: {}", where, g_first_error);
-        g_first_error.clear();
-        while (glGetError() != GL_NO_ERROR) {
-        }
-        throw Error(ExitCode::failed, message);
+    if (code == GL_CONTEXT_LOST || code == GL_OUT_OF_MEMORY || is_out_of_memory()) {
+        throw_pending(code, fmt::format("what {} needs", where));
+    }
+    const std::string message =
+        fmt::format("OpenGL refused a call in {}: {}", where,
+                    g_first_error.empty() ? fmt::format("error 0x{:04x}", code) : g_first_error);
+    forget_errors();
+    throw Error(ExitCode::failed, message);
+}
+
+void throw_on_failed_allocation(std::string_view what, size_t bytes) {
+    const std::string sized = fmt::format("{} of {:.1f} MiB", what, static_cast<double>(bytes) / 1048576.0);
+    if (const char* limit = std::getenv("BOUNCE_GPU_MEMORY");
+        limit != nullptr && static_cast<double>(allocated_bytes() + bytes) > std::strtod(limit, nullptr)) {
+        throw_pending(GL_OUT_OF_MEMORY, sized);
+    }
+    if (const GLenum code = glGetError();
+        code == GL_OUT_OF_MEMORY || code == GL_CONTEXT_LOST || is_out_of_memory()) {
+        throw_pending(code, sized);
+    } else if (code != GL_NO_ERROR && g_first_error.empty()) {
+        g_first_error = fmt::format("error 0x{:04x}", code);  // for throw_on_debug_error()
+    }
+}
+
+void throw_on_lost_context() {
+    static const char* const lost_at = std::getenv("BOUNCE_LOSE_CONTEXT");
+    static long calls = 0;
+    const bool simulated = lost_at != nullptr && ++calls == std::strtol(lost_at, nullptr, 10);
+    if (simulated || glGetGraphicsResetStatus() != GL_NO_ERROR) {
+        throw_pending(GL_CONTEXT_LOST, {});
     }
 }
 

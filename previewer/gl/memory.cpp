@@ -40,4 +40,8 @@ size_t peak_allocated_bytes() {
     return g_peak;
 }
 
+void restart_peak() {
+    g_peak = g_alive;
+}
+
 }  // namespace bounce::gl

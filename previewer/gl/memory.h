@@ -23,5 +23,7 @@ class Allocation {
 // Alive now, and the most that was alive at once, in this process.
 [[nodiscard]] size_t allocated_bytes();
 [[nodiscard]] size_t peak_allocated_bytes();
+// From now on the peak is of what comes.
+void restart_peak();
 
 }  // namespace bounce::gl

@@ -24,6 +24,14 @@ struct TextureDesc {
 };
 
 [[nodiscard]] size_t bytes_per_texel(GLenum format);
+// Of all levels, layers and samples; the driver's own overhead is not in it.
+[[nodiscard]] size_t storage_bytes(const TextureDesc& desc);
+
+// How texels are read and cleared: as depths, as whole numbers or as values with a fraction.
+enum class TexelKind { depth, integer, real };
+[[nodiscard]] TexelKind texel_kind(GLenum format);
+// Real texels that can hold something that is not finite.
+[[nodiscard]] bool holds_floats(GLenum format);
 
 // Immutable storage. Sampling is nearest and clamps to the edge.
 class Texture {
@@ -33,11 +41,14 @@ class Texture {
 
     [[nodiscard]] GLuint id() const { return object_.id(); }
     [[nodiscard]] const TextureDesc& desc() const { return desc_; }
+    [[nodiscard]] size_t bytes() const { return storage_bytes(desc_); }
     [[nodiscard]] explicit operator bool() const { return static_cast<bool>(object_); }
     void bind(GLuint unit) const { glBindTextureUnit(unit, id()); }
     void bind_image(GLuint unit, GLenum access) const {
         glBindImageTexture(unit, id(), 0, desc_.layers > 0 ? GL_TRUE : GL_FALSE, 0, access, desc_.format);
     }
+
+    void clear_to_zero();
 
   private:
     Object<delete_texture> object_;

@@ -66,6 +66,7 @@ void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices
                            {point.second, point.third, sample.back ? -point.share : point.share, 0.0F},
                            glm::vec4(sent, 0.0F)});
     }
+    ++uploads_;
     sources_ = gl::Buffer::of("emitter sources", std::span<const GpuEmitterSource>(sources));
 }
 

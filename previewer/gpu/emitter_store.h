@@ -32,6 +32,8 @@ class EmitterStore {
     [[nodiscard]] size_t lights() const { return samples_.size(); }
     // What they send, luminance, W.
     [[nodiscard]] double power_w() const { return power_w_; }
+    // What decides on the lights at this pose, but for where surfaces stand (PointStore::content()).
+    [[nodiscard]] uint32_t content() const { return uploads_; }
     void bind_for_update() const;
 
   private:
@@ -45,6 +47,7 @@ class EmitterStore {
     std::vector<std::pair<int, int>> taken_;  // nodes and instances of the panels left out
     size_t count_ = 0;
     uint32_t seed_ = 0;
+    uint32_t uploads_ = 0;
     double power_w_ = 0.0;
     gl::Buffer sources_;
     const gl::Buffer* positions_ = nullptr;

@@ -2,6 +2,7 @@
 #include "gpu/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <numeric>
@@ -63,6 +64,13 @@ DrawFeatures features_of(const scene::Scene& scene, const MaterialTextures& text
     features.alpha_test = material.alpha_mode == scene::AlphaMode::mask || coverage.blended;
     features.vertex_color = !primitive.colors.empty();
     return features;
+}
+
+// All that leaves the surface's look the same to the bit; a flat normal map would round.
+void force(DrawFeatures& features, const scene::Material& material) {
+    features.base_color_texture = features.metallic_roughness_texture = true;
+    features.emission = features.emission_texture = features.vertex_color = true;
+    features.alpha_test |= !features.blend && material.base_color.a >= 1.0F;
 }
 
 // Rows of the affine matrix, and of the cofactor matrix of its linear part, which turns normals right
@@ -134,10 +142,20 @@ void GpuScene::upload_materials(const std::vector<scene::Material>& materials) {
         materials_ = gl::Buffer("materials", packed.size() * sizeof(GpuMaterial), GL_DYNAMIC_STORAGE_BIT);
     }
     materials_.update(std::span<const GpuMaterial>(packed));
+    material_contents_.clear();
+    for (const GpuMaterial& material : packed) {
+        material_contents_.push_back(ContentHash().add(material).key());
+    }
     current_materials_ = materials;
 }
 
 void GpuScene::set_pose(const scene::Pose& pose) {
+    if (forced_ && !white_) {
+        // Of floats: filters of 8 bits may round a little below 1.
+        white_ = gl::Texture("white", {.format = GL_RGBA32F, .width = 1, .height = 1});
+        const std::array<float, 4> white = {1.0F, 1.0F, 1.0F, 1.0F};
+        glTextureSubImage2D(white_.id(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, white.data());
+    }
     bounds_ = scene::world_bounds(scene_, pose);
     upload_materials(pose.materials);
     vertices_.set_pose(pose, space_);
@@ -159,6 +177,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         DrawBox box;
         DrawSource source;
         double scale = 1.0;
+        ContentKey deformed;
     };
     std::vector<Item> items;
     std::vector<int> copies(scene_.nodes.size(), 0);
@@ -188,6 +207,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
                                              : vertices_.range(instance.mesh, static_cast<int>(p));
             Item item;
             item.batch.features = features_of(scene_, textures_, material, primitive);
+            if (forced_) force(item.batch.features, material);
             item.batch.cull_back_faces = !material.double_sided && !scene_.from_blender;
             item.batch.mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
             item.batch.material = material_index;
@@ -203,6 +223,7 @@ void GpuScene::build_batches(const scene::Pose& pose) {
             scene::grow_by_primitive(world, pose, instance, primitive.bounds);
             item.box = gpu::draw_box(world, space_);
             item.source = {static_cast<int>(i), static_cast<int>(p)};
+            item.deformed = vertices_.content(instance.node);
             items.push_back(item);
             has_blended_ |= item.batch.features.blend;
             has_emission_ |= item.batch.features.emission;
@@ -224,6 +245,8 @@ void GpuScene::build_batches(const scene::Pose& pose) {
     draw_sources_.clear();
     draw_data_.clear();
     draw_scales_.clear();
+    draw_contents_.clear();
+    ContentHash all;
     for (size_t i = 0; i < items.size(); ++i) {
         if (i == 0 || key(items[i]) != key(items[i - 1])) {
             batches_.push_back(items[i].batch);
@@ -232,10 +255,29 @@ void GpuScene::build_batches(const scene::Pose& pose) {
         ++batches_.back().draw_count;
         draw_data_.push_back(items[i].draw);
         draw_scales_.push_back(items[i].scale);
+        const DrawBatch& batch = items[i].batch;
+        draw_contents_.push_back(ContentHash()
+                                     .add(items[i].draw)
+                                     .add(batch.first_index)
+                                     .add(batch.index_count)
+                                     .add(batch.base_vertex)
+                                     .add(items[i].deformed)
+                                     .key());
+        all.add(draw_contents_.back());
         draw_boxes_.push_back(items[i].box);
         draw_sources_.push_back(items[i].source);
     }
+    all.add_all(std::span<const ContentKey>(material_contents_));
+    content_ = all.key();
     upload_draws();
+}
+
+ContentKey GpuScene::draw_content(uint32_t draw, Geometry geometry) const {
+    if (geometry == Geometry::whole || !simplified_by_) {
+        return draw_contents_[draw];
+    }
+    // How far its surfaces moved is in its data since it is simplified.
+    return ContentHash().add(draw_contents_[draw]).add(draw_data_[draw].ids).add(simplified_count_).key();
 }
 
 void GpuScene::upload_draws() {
@@ -262,6 +304,7 @@ void GpuScene::simplify(const scene::Simplification& settings) {
         simplified_ = scene::simplify_scene(scene_, settings);
         vertices_.set_simplified(simplified_);
         simplified_by_ = settings;
+        ++simplified_count_;
     }
     simplified_triangles_ = 0;
     simplified_error_m_ = 0.0;
@@ -284,9 +327,18 @@ void GpuScene::bind() const {
     vertices_.bind_vertex_array();
     draws_.bind_storage(SSBO_DRAWS);
     materials_.bind_storage(SSBO_MATERIALS);
+    if (forced_) {
+        glVertexAttrib4f(ATTRIB_COLOR, 1.0F, 1.0F, 1.0F, 1.0F);  // where no stream has any
+    }
 }
 
 void GpuScene::bind_material(const DrawBatch& batch) const {
+    if (forced_) {
+        for (const GLuint unit : {TEX_BASE_COLOR, TEX_METALLIC_ROUGHNESS, TEX_EMISSION}) {
+            white_.bind(unit);
+            glBindSampler(unit, 0);
+        }
+    }
     if (batch.material >= static_cast<int>(scene_.materials.size())) {
         return;
     }

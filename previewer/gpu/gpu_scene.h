@@ -74,6 +74,9 @@ class GpuScene {
     explicit GpuScene(const scene::Scene& scene);
 
     void set_pose(const scene::Pose& pose);
+    // From the next pose on every branch that shaders have for materials is compiled in, with white textures
+    // and colours, whether a material needs it or not: the picture is the same.
+    void force_features(bool forced) { forced_ = forced; }
     // Puts simplified meshes beside the whole ones, for the pose that is set. They are made when it is first
     // called, and where the settings change.
     void simplify(const scene::Simplification& settings);
@@ -94,6 +97,16 @@ class GpuScene {
     // Places a primitive's vertices, which of skinned ones are in render space already.
     [[nodiscard]] glm::dmat4 render_from_vertices(const scene::DrawInstance& instance, int primitive) const;
     [[nodiscard]] bool deforms() const { return !vertices_.jobs().empty(); }
+    void deform_done() { vertices_.deform_done(); }
+    // What decides on a draw's triangles: where they stand and how they are deformed. Of a simplified scene
+    // also by how much.
+    [[nodiscard]] ContentKey draw_content(uint32_t draw, Geometry geometry) const;
+    // What decides on the look of a batch's material.
+    [[nodiscard]] const ContentKey& material_content(const DrawBatch& batch) const {
+        return material_contents_[static_cast<size_t>(batch.material)];
+    }
+    // Of all draws and materials.
+    [[nodiscard]] const ContentKey& content() const { return content_; }
     [[nodiscard]] bool has_emission() const { return has_emission_; }
     [[nodiscard]] bool has_disney_diffuse() const { return has_disney_; }
     // Anything neither opaque nor nothing.
@@ -127,9 +140,13 @@ class GpuScene {
     std::vector<DrawBox> draw_boxes_;
     std::vector<DrawSource> draw_sources_;
     std::vector<GpuDraw> draw_data_;
+    std::vector<ContentKey> draw_contents_;
+    std::vector<ContentKey> material_contents_;
+    ContentKey content_;
     std::vector<double> draw_scales_;  // render units a model unit, at most
     std::optional<scene::Simplification> simplified_by_;
     scene::SimplifiedMeshes simplified_;  // without their triangles
+    uint32_t simplified_count_ = 0;       // how often they were made anew
     size_t simplified_triangles_ = 0;
     double simplified_error_m_ = 0.0;
     gl::Buffer draws_;
@@ -143,6 +160,8 @@ class GpuScene {
     bool has_disney_ = false;
     bool has_specular_ = false;
     bool has_blended_ = false;
+    bool forced_ = false;
+    gl::Texture white_;  // where features are forced
     size_t triangles_ = 0;
 };
 

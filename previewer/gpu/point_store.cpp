@@ -164,7 +164,8 @@ void PointStore::bind_materials() const {
 void PointStore::find_changes(const std::vector<GpuPointSurface>& now) {
     changed_.clear();
     const auto moved = [&](size_t i) {
-        return updated_surfaces_.empty() || parts_.surfaces[i].deforms || !same(now[i], updated_surfaces_[i]);
+        return updated_surfaces_.empty() || (parts_.surfaces[i].deforms && deformed_ != updated_deformed_) ||
+               !same(now[i], updated_surfaces_[i]);
     };
     large_changed_ = std::any_of(set_.large.begin(), set_.large.end(),
                                  [&](const scene::SurfaceTriangle& t) { return moved(t.surface); });
@@ -196,8 +197,18 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
         scene::drop_cut_out(scene_, parts_, set_.reflectors);
         wanted_ = wanted;
         sampled_on_hull_ = hull;
-        upload(vertices);
+        upload_due_ = true;
+        ++samplings_;
+        const size_t total = set_.occluders.size() + set_.reflectors.size();
+        bytes_ = total * (sizeof(GpuPointSource) + sizeof(glm::uvec4)) +
+                 (set_.reflectors.empty() ? 0 : total * sizeof(glm::uvec4)) +
+                 set_.large.size() * (sizeof(glm::uvec4) + 3 * sizeof(glm::vec4));
     }
+    if (upload_due_ && !plans_only_) {
+        upload(vertices);
+        upload_due_ = false;
+    }
+    deformed_ = vertices.content();
     std::vector<bool> drawn(scene_.nodes.size(), false);
     for (const scene::DrawInstance& draw : pose.draws) {
         drawn[at(draw.node)] = true;
@@ -223,7 +234,14 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
                    drawn[at(surface.node)] ? 1 : 0, 0, 0};
         surfaces_.push_back(out);
     }
-    find_changes(surfaces_);
+    content_ = ContentHash()
+                   .add(samplings_)
+                   .add(deformed_)
+                   .add_all(std::span<const GpuPointSurface>(surfaces_))
+                   .key();
+    if (!upload_due_) {
+        find_changes(surfaces_);
+    }
     if (surface_buffer_.bytes() != surfaces_.size() * sizeof(GpuPointSurface)) {
         surface_buffer_ =
             gl::Buffer("point surfaces", surfaces_.size() * sizeof(GpuPointSurface), GL_DYNAMIC_STORAGE_BIT);
@@ -238,8 +256,18 @@ void PointStore::set_pose(const scene::Pose& pose, const RenderSpace& space, con
     }
 }
 
+size_t PointStore::allocated_bytes() const {
+    size_t sum = 0;
+    for (const gl::Buffer* buffer :
+         {&triangle_sources_, &triangles_, &point_materials_, &sources_, &points_}) {
+        sum += *buffer ? buffer->bytes() : 0;
+    }
+    return sum;
+}
+
 void PointStore::update_done() {
     updated_surfaces_ = surfaces_;
+    updated_deformed_ = deformed_;
     changed_.clear();
     large_changed_ = false;
 }

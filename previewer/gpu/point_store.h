@@ -34,9 +34,19 @@ class PointStore {
     void set_pose(const scene::Pose& pose, const RenderSpace& space, const VertexStore& vertices,
                   const scene::PointCounts& wanted, bool drop_hull, bool thin_ground);
 
+    // Where it only plans, set_pose() makes no buffers of the points but says how large they would be; they
+    // are made by the next one that does not.
+    void plan_only(bool plans) { plans_only_ = plans; }
+    // Of what set_pose() made or, where it only plans, would have made.
+    [[nodiscard]] size_t bytes() const { return bytes_; }
+    // Of what there is.
+    [[nodiscard]] size_t allocated_bytes() const;
+
     // Sources whose surfaces changed; and whether those of large triangles did.
     [[nodiscard]] const std::vector<PointRun>& changed() const { return changed_; }
-    [[nodiscard]] bool any_changed() const { return !changed_.empty() || large_changed_; }
+    // What decides on the points and large triangles of this pose, and on their materials' places.
+    [[nodiscard]] const ContentKey& content() const { return content_; }
+    [[nodiscard]] bool any_changed() const { return upload_due_ || !changed_.empty() || large_changed_; }
     void update_done();
 
     [[nodiscard]] size_t large_triangles() const { return set_.large.size(); }
@@ -94,7 +104,12 @@ class PointStore {
     std::vector<GpuPointSurface> updated_surfaces_;   // that points stand on
     std::vector<GpuPointSurface> uploaded_surfaces_;  // in surface_buffer_
     std::vector<PointRun> changed_;
+    uint32_t samplings_ = 0;  // how often points were sampled
+    ContentKey content_, deformed_, updated_deformed_;
     bool large_changed_ = false;
+    bool plans_only_ = false;
+    bool upload_due_ = false;
+    size_t bytes_ = 0;
     gl::Buffer triangle_sources_, triangles_, point_materials_;
     gl::Buffer sources_, surface_buffer_, points_;
     const gl::Buffer* positions_ = nullptr;

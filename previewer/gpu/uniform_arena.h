@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "gl/buffer.h"
@@ -28,6 +29,10 @@ class UniformArena {
         data_.resize(data_.size() + padded);
         std::memcpy(data_.data() + slot.offset, &block, sizeof(T));
         return slot;
+    }
+    // What was added there.
+    [[nodiscard]] std::span<const std::byte> bytes(Slot slot) const {
+        return std::span(data_).subspan(slot.offset, slot.bytes);
     }
     void upload();
     void bind(GLuint binding, Slot slot) const;

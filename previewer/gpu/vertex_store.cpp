@@ -96,6 +96,8 @@ void VertexStore::add_deformed_nodes(const scene::Scene& scene, Builder& build) 
         build.matrices += static_cast<int>(skin.joints.size());
     }
     deformed_.resize(scene.nodes.size());
+    contents_.resize(scene.nodes.size());
+    node_skins_.assign(scene.nodes.size(), scene::k_none);
     for (const int index : scene.topological_order) {
         const scene::Node& node = scene.nodes[at(index)];
         if (node.mesh == scene::k_none) {
@@ -108,6 +110,7 @@ void VertexStore::add_deformed_nodes(const scene::Scene& scene, Builder& build) 
         if (!deforms) {
             continue;
         }
+        node_skins_[at(index)] = node.skin;
         const int first_weight = build.weights;
         int targets_of_node = 0;
         for (size_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -247,23 +250,41 @@ void VertexStore::set_pose(const scene::Pose& pose, const RenderSpace& space) {
     }
     const glm::dmat4 render_from_world = space.render_from_world();
     std::vector<glm::vec4> rows;
+    std::vector<ContentKey> skins;
     for (const std::vector<glm::dmat4>& skin : pose.skins) {
+        const size_t first = rows.size();
         for (const glm::dmat4& world_from_mesh : skin) {
             const glm::dmat4 matrix = render_from_world * world_from_mesh;
             for (int row = 0; row < 3; ++row) {
                 rows.push_back(matrix_row(matrix, row));
             }
         }
+        skins.push_back(ContentHash().add_all(std::span<const glm::vec4>(rows).subspan(first)).key());
     }
-    skin_matrices_.update(std::span<const glm::vec4>(rows));
-
     std::vector<float> weights(weights_.bytes() / sizeof(float), 0.0F);
     for (size_t j = 0; j < jobs_.size(); ++j) {
         const std::vector<float>& source = pose.weights[at(job_nodes_[j])];
         const auto count = std::min(source.size(), at(jobs_[j].morph.y));
         std::copy_n(source.begin(), count, weights.begin() + jobs_[j].morph.z);
     }
+    const ContentKey before = content_;
+    content_ = ContentHash()
+                   .add_all(std::span<const glm::vec4>(rows))
+                   .add_all(std::span<const float>(weights))
+                   .key();
+    if (content_ == before) {
+        return;
+    }
+    skin_matrices_.update(std::span<const glm::vec4>(rows));
     weights_.update(std::span<const float>(weights));
+    for (const int node : job_nodes_) {
+        ContentHash hash;
+        hash.add_all(std::span<const float>(pose.weights[at(node)]));
+        if (node_skins_[at(node)] != scene::k_none) {
+            hash.add(skins[at(node_skins_[at(node)])]);
+        }
+        contents_[at(node)] = hash.key();
+    }
 }
 
 void VertexStore::bind_for_deform() const {

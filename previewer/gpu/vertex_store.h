@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/content_key.h"
 #include "gl/buffer.h"
 #include "gl/object.h"
 #include "gpu/render_space.h"
@@ -45,8 +46,15 @@ class VertexStore {
     [[nodiscard]] PrimitiveRange simplified_range(int mesh, int primitive) const {
         return simplified_[static_cast<size_t>(mesh)][static_cast<size_t>(primitive)];
     }
-    // Uploads joint matrices and morph weights of the pose.
+    // Uploads joint matrices and morph weights of the pose, where they changed.
     void set_pose(const scene::Pose& pose, const RenderSpace& space);
+    // What a node's vertices are made of at this pose; the same for all that do not deform.
+    [[nodiscard]] const ContentKey& content(int node) const { return contents_[static_cast<size_t>(node)]; }
+    // Of all together.
+    [[nodiscard]] const ContentKey& content() const { return content_; }
+    // Whether the deform pass has yet to run for this pose.
+    [[nodiscard]] bool deform_due() const { return !jobs_.empty() && written_ != content_; }
+    void deform_done() { written_ = content_; }
 
     [[nodiscard]] const std::vector<DeformJob>& jobs() const { return jobs_; }
     void bind_vertex_array() const { glBindVertexArray(vertex_array_.id()); }
@@ -78,6 +86,9 @@ class VertexStore {
     std::vector<int> skin_first_matrix_;
     gl::Object<delete_vertex_array> vertex_array_;
     gl::Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_;
+    std::vector<ContentKey> contents_;  // per node
+    std::vector<int> node_skins_;
+    ContentKey content_, written_;  // written_: what the deform pass last ran for
     gl::Buffer jobs_buffer_, influences_, skin_matrices_, deltas_, weights_;
 };
 

@@ -8,8 +8,9 @@ namespace {
 
 constexpr int k_samples = AA_SAMPLES;
 
-// The samples' places within a pixel, from its middle; of the framebuffer that is bound.
-std::array<glm::vec2, k_samples> sample_places() {
+// The samples' places within a pixel, from its middle.
+std::array<glm::vec2, k_samples> sample_places(const PassResources& resources, const DepthSamples& samples) {
+    resources.framebuffer({}, {&resources.texture(samples.depth)}).bind();
     std::array<glm::vec2, k_samples> places{};
     for (GLuint i = 0; i < places.size(); ++i) {
         glGetMultisamplefv(GL_SAMPLE_POSITION, i, &places[i].x);
@@ -51,13 +52,13 @@ std::string named(const char* pass, const std::string& layer) {
 }  // namespace
 
 DepthSamples add_depth_samples(FrameGraph& graph, const PassContext& context, const View& camera) {
-    DepthSamples out{{}, std::make_shared<std::array<glm::vec2, k_samples>>()};
+    DepthSamples out;
     graph.add_pass("depth samples", [&](PassBuilder& builder) {
         out.depth = builder.create_texture("depth samples", sample_desc(context));
+        builder.decided_by(drawn_content(context, &camera, DrawKind::seen_depth));
         return [context, camera, out](const PassResources& resources) {
             const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(out.depth)});
             target.bind();
-            *out.places = sample_places();
             const float far_depth = 0.0F;
             glClearNamedFramebufferfv(target.id(), GL_DEPTH, 0, &far_depth);
             draw_scene(context, camera, DrawKind::seen_depth, "passes/shadow_map.frag", {});
@@ -68,7 +69,7 @@ DepthSamples add_depth_samples(FrameGraph& graph, const PassContext& context, co
 
 DepthSamples add_peeled_samples(FrameGraph& graph, const PassContext& context, const View& camera,
                                 const DepthSamples& solid, TextureHandle before, const std::string& layer) {
-    DepthSamples out{{}, solid.places};
+    DepthSamples out;
     graph.add_pass(named("depth samples", layer), [&](PassBuilder& builder) {
         builder.read(solid.depth);
         const bool first = !before.valid();
@@ -108,6 +109,7 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
         builder.read(samples.depth);
         sources = builder.create_texture(
             "sample sources", {.format = GL_R16UI, .width = context.width, .height = context.height});
+        builder.decided_by(ContentHash().add(camera_content(context)).add_text(layer).key());
         return [context, gbuffer, samples, sources](const PassResources& resources) {
             context.programs.compute("passes/sample_sources.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
@@ -115,7 +117,8 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
             resources.texture(gbuffer.geometric_normal).bind(TEX_GEOMETRIC_NORMAL);
             resources.texture(samples.depth).bind(TEX_DEPTH_SAMPLES);
             resources.texture(sources).bind_image(IMG_OUT, GL_WRITE_ONLY);
-            glUniform2fv(0, k_samples, &samples.places->front().x);
+            const std::array<glm::vec2, k_samples> places = sample_places(resources, samples);
+            glUniform2fv(0, k_samples, &places.front().x);
             dispatch_2d(context.width, context.height);
             finish_writes();
         };
@@ -124,6 +127,7 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
     graph.add_pass(named("antialias", layer), [&](PassBuilder& builder) {
         builder.read(picture);
         builder.read(sources);
+        builder.read(samples.depth);
         out = target.valid()
                   ? builder.write(target)
                   : builder.create_texture(
@@ -135,7 +139,8 @@ TextureHandle add_antialias(FrameGraph& graph, const PassContext& context, const
             context.uniforms.bind(UBO_FRAME, context.frame);
             resources.texture(picture).bind_image(IMG_IN, GL_READ_ONLY);
             resources.texture(sources).bind_image(IMG_SOURCES, GL_READ_ONLY);
-            const std::array<float, 9 * k_samples> weights = filter_weights(*samples.places, offset);
+            const std::array<float, 9 * k_samples> weights =
+                filter_weights(sample_places(resources, samples), offset);
             glUniform1fv(0, static_cast<GLsizei>(weights.size()), weights.data());
             resources.texture(out).bind_image(IMG_OUT, GL_WRITE_ONLY);
             dispatch_2d(context.width, context.height);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <memory>
-
 #include "passes/gbuffer.h"
 
 namespace bounce::passes {
@@ -11,8 +8,6 @@ namespace bounce::passes {
 // Depth at AA_SAMPLES places of each pixel.
 struct DepthSamples {
     TextureHandle depth;
-    // From a pixel's middle; known when they are drawn.
-    std::shared_ptr<std::array<glm::vec2, AA_SAMPLES>> places;
 };
 
 // Of the solid surfaces.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 namespace {
 
@@ -79,6 +81,8 @@ void run_stage(const PassContext& context, const PassResources& resources, const
 AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid) {
     const glm::ivec4 size = grid.layout.size;
     const auto capacity = static_cast<size_t>(size.w);
+    const ContentKey decides =
+        ContentHash().add(content(context, grid.uniforms)).add(context.scene.content()).key();
     TileList list;
     graph.add_pass("avg cells", [&](PassBuilder& builder) {
         grid.cells = builder.create_texture(
@@ -87,6 +91,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
             "avg tiles",
             {.format = GL_R32UI, .width = 2 * AVG_TILE_ROW, .height = AVG_MOST_TILES / AVG_TILE_ROW});
         list.counts = builder.create_texture("avg counts", {.format = GL_R32UI, .width = 1, .height = 1});
+        builder.decided_by(decides);
         return [context, grid, list](const PassResources& resources) {
             const GLuint zero = 0;
             const gl::Texture& cells = resources.texture(grid.cells);
@@ -102,9 +107,12 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         grid.cells = builder.write(grid.cells);
         list.tiles = builder.write(list.tiles);
         list.counts = builder.write(list.counts);
-        grid.rows = builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float));
+        grid.rows =
+            builder.create_buffer("avg rows", static_cast<size_t>(rows) * sizeof(float), k_all_floats);
         sums = builder.create_buffer("avg sums", capacity * AVG_SUM_WORDS * sizeof(GLuint));
-        grid.surfaces = builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel));
+        grid.surfaces =
+            builder.create_buffer("avg surfaces", capacity * sizeof(gpu::GpuAvgVoxel), k_avg_voxel_floats);
+        builder.decided_by(decides);
         return [context, grid, list, sums, size, rows](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);
             resources.texture(grid.cells).bind_image(IMG_AVG_CELLS, GL_READ_WRITE);
@@ -139,6 +147,7 @@ AvgGrid add_avg_grid(FrameGraph& graph, const PassContext& context, AvgGrid grid
         list.tiles = builder.write(list.tiles);
         list.counts = builder.write(list.counts);
         grid.surfaces = builder.write(grid.surfaces);
+        builder.decided_by(decides);
         return [context, grid, list](const PassResources& resources) {
             context.uniforms.bind(UBO_AVG, grid.uniforms);
             resources.texture(grid.cells).bind_image(IMG_AVG_CELLS, GL_READ_ONLY);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_sampling.h"
 
 namespace bounce::passes {
@@ -33,7 +34,9 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
     if (before != nullptr) {
         graph.add_pass("avg flux", [&](PassBuilder& builder) {
             builder.read(before->vpls);
-            sums = builder.create_buffer("avg flux", static_cast<size_t>(before->maps) * sizeof(float));
+            sums = builder.create_buffer("avg flux", static_cast<size_t>(before->maps) * sizeof(float),
+                                         k_all_floats);
+            builder.decided_by(content(context, *before));
             return [context, before = *before, sums](const PassResources& resources) {
                 gl::Defines defines;
                 if (before.distant) defines["DISTANT"] = "1";
@@ -59,7 +62,18 @@ VplSet add_trace(FrameGraph& graph, const PassContext& context, const AvgTraceIn
             builder.read(before->vpls);
             builder.read(sums);
         }
-        out.vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
+        out.vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl),
+                                         k_vpl_floats);
+        ContentHash hash;
+        hash.add(content(context, inputs.grid.uniforms)).add(content(context, layout));
+        hash.add(inputs.hits).add(inputs.paths).add(inputs.sequences).add(inputs.bounce).add(inputs.glossy);
+        hash.add(context.scene.has_disney_diffuse()).add(inputs.numbers->bytes());
+        if (before != nullptr) {
+            hash.add(content(context, *before));
+        } else {
+            hash.add(inputs.rays);
+        }
+        builder.decided_by(hash.key());
         return [context, inputs, out, rays, sums, first = before == nullptr,
                 before = before == nullptr ? VplSet{} : *before](const PassResources& resources) {
             gl::Defines defines;

@@ -14,6 +14,7 @@ struct AvgTraceInputs {
     // vec4, `sequences` of as many low-discrepancy numbers; one for each ray at least.
     const gl::Buffer* numbers = nullptr;
     int sequences = 1;
+    ContentKey rays;     // of the lights' rays, where they are traced
     int bounce = 0;      // which of the sequences, and, where there are more bounces, how it is turned
     bool glossy = true;  // glossy reflection is kept
 };

@@ -55,6 +55,10 @@ TextureHandle add_faces(FrameGraph& graph, const PassContext& context, const Vpl
         const TextureHandle depth = builder.create_texture(
             "classic depth",
             {.format = GL_DEPTH_COMPONENT32F, .width = set.map_size, .height = set.map_size});
+        builder.decided_by(ContentHash()
+                               .add(content(context, set))
+                               .add(drawn_content(context, nullptr, DrawKind::plane, geometry))
+                               .key());
         return [context, set, geometry, atlas, views, planes, depth](const PassResources& resources) {
             constexpr std::array<float, 4> nothing{};
             make_views(context, resources, set, k_classic_faces, resources.buffer(views));
@@ -96,6 +100,10 @@ TextureHandle add_paraboloids(FrameGraph& graph, const PassContext& context, con
         const TextureHandle depth = builder.create_texture(
             "paraboloid depth",
             {.format = GL_DEPTH_COMPONENT32F, .width = set.map_size, .height = set.map_size});
+        builder.decided_by(ContentHash()
+                               .add(content(context, set))
+                               .add(drawn_content(context, nullptr, DrawKind::plane, geometry))
+                               .key());
         return [context, set, geometry, atlas, views, drawn, depth](const PassResources& resources) {
             constexpr std::array<GLuint, 4> nothing{k_nothing_hit, 0, 0, 0};
             make_views(context, resources, set, 1, resources.buffer(views));

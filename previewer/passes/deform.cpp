@@ -3,7 +3,7 @@
 
 namespace bounce::passes {
 
-void run_deform(gl::ProgramCache& programs, const gpu::GpuScene& scene) {
+void run_deform(gl::ProgramCache& programs, gpu::GpuScene& scene) {
     const gpu::VertexStore& vertices = scene.vertices();
     gl::Defines defines;
     if (vertices.has_tangents()) {
@@ -17,6 +17,7 @@ void run_deform(gl::ProgramCache& programs, const gpu::GpuScene& scene) {
         glDispatchCompute((count + GROUP_1D - 1) / GROUP_1D, 1, 1);
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    scene.deform_done();
 }
 
 }  // namespace bounce::passes

@@ -24,6 +24,14 @@ GBuffer add(FrameGraph& graph, const PassContext& context, const View& camera, g
         if (whole && context.scene.has_emission()) {
             out.emission = target("emission", GL_RGBA32F);
         }
+        // What counts something runs for that.
+        const DrawKind kind = out.emission.valid() ? DrawKind::surface_with_emission : DrawKind::surface;
+        if (anything_seen == nullptr) {
+            builder.decided_by(ContentHash()
+                                   .add(camera_content(context))
+                                   .add(drawn_content(context, &camera, kind, geometry))
+                                   .key());
+        }
         return [context, camera, geometry, out, anything_seen](const PassResources& resources) {
             const gl::Attachment color{&resources.texture(out.base_color_roughness)};
             const gl::Attachment normal{&resources.texture(out.normal_metallic_specular)};

@@ -12,6 +12,7 @@ TextureHandle add_irsm(FrameGraph& graph, const PassContext& context, const Scen
         out = builder.create_texture(
             "irsm atlas",
             {.format = GL_R32UI, .width = set.columns * set.map_size, .height = set.rows * set.map_size});
+        builder.decided_by(content(context, set));
         return [context, scene, set, out](const PassResources& resources) {
             context.programs.compute("passes/irsm_splat.comp", {{"MAP_SIZE", std::to_string(set.map_size)}})
                 .use();

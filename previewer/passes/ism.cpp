@@ -36,6 +36,15 @@ gl::Defines pull_push_defines(const PullPushSettings& settings) {
     return defines;
 }
 
+ContentKey content(const PullPushSettings& settings) {
+    return ContentHash()
+        .add(settings.mode)
+        .add(settings.levels)
+        .add(settings.pull_threshold)
+        .add(settings.push_threshold)
+        .key();
+}
+
 void clear_atlas(const gl::Texture& atlas, const VplSet& set) {
     const GLuint& empty = set.distant ? k_empty_distant : k_empty;
     glClearTexImage(atlas.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &empty);
@@ -57,6 +66,7 @@ TextureHandle add_triangles(FrameGraph& graph, const PassContext& context, const
         builder.read(inputs.scene.triangles);
         builder.read(set.vpls);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        builder.decided_by(ContentHash().add(content(context, set)).add(inputs.large_triangles).key());
         return [context, inputs, set, out](const PassResources& resources) {
             bind_set(context, resources, set);
             resources.buffer(inputs.scene.triangles).bind_storage(SSBO_TRIANGLES);
@@ -79,6 +89,7 @@ TextureHandle add_close(FrameGraph& graph, const PassContext& context, const Vpl
     graph.add_pass("ism close", [&](PassBuilder& builder) {
         builder.read(atlas);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        builder.decided_by(content(context, set));
         return [context, set, atlas, out](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             defines.merge(map_defines(set));
@@ -104,6 +115,8 @@ TextureHandle add_disks(FrameGraph& graph, const PassContext& context, const Ism
         out = over.valid() ? builder.write(over)
                            : builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
         const bool has_triangles = over.valid();
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(inputs.close).add(has_triangles).key());
         return [context, inputs, set, out, has_triangles](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) defines["SHARED"] = "1";
@@ -127,6 +140,8 @@ TextureHandle add_pull_push(FrameGraph& graph, const PassContext& context, const
     graph.add_pass("ism pull-push", [&](PassBuilder& builder) {
         builder.read(splats);
         out = builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI));
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(content(settings)).add(from_depth).key());
         return [context, settings, set, splats, from_depth, out](const PassResources& resources) {
             const int side = std::min(set.map_size, k_largest_shared_map);
             const int border = side < set.map_size ? k_border : 0;
@@ -162,6 +177,8 @@ IsmAtlas add_squares(FrameGraph& graph, const PassContext& context, const IsmInp
         builder.read(set.vpls);
         out.splats = builder.create_texture("ism splats", atlas_desc(set, GL_R32UI));
         out.atlas = fused ? builder.create_texture("ism atlas", atlas_desc(set, GL_R32UI)) : out.splats;
+        builder.decided_by(
+            ContentHash().add(content(context, set)).add(content(inputs.pull_push)).add(fused).key());
         return [context, inputs, set, fused, out](const PassResources& resources) {
             gl::Defines defines{{"MAP_SIZE", std::to_string(set.map_size)}};
             if (fits_shared(set)) {
@@ -195,6 +212,7 @@ TextureHandle add_gl_points(FrameGraph& graph, const PassContext& context, const
         builder.read(inputs.scene.points);
         builder.read(set.vpls);
         out = builder.create_texture("ism depth", atlas_desc(set, GL_DEPTH_COMPONENT32F));
+        builder.decided_by(content(context, set));
         return [context, inputs, set, out](const PassResources& resources) {
             const gl::Framebuffer& target = resources.framebuffer({}, {&resources.texture(out)});
             target.bind();
@@ -219,6 +237,19 @@ TextureHandle add_gl_points(FrameGraph& graph, const PassContext& context, const
 }
 
 }  // namespace
+
+ContentKey content(const PassContext& context, const VplSet& set) {
+    return ContentHash()
+        .add(content(context, set.uniforms))
+        .add(content(map_defines(set)))
+        .add(glm::ivec4(set.maps, set.map_size, set.columns, set.rows))
+        .add(glm::ivec4(set.points_a_map, set.interleave, set.subset, set.cell_columns))
+        .add(set.seed)
+        .add(set.middle)
+        .add(set.extent)
+        .add(set.image)
+        .key();
+}
 
 gl::Defines map_defines(const VplSet& set) {
     gl::Defines defines;

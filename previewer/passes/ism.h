@@ -78,6 +78,9 @@ struct IsmInputs {
 // How a set's maps are compiled in: DISTANT, WINDOW, BOTH_SIDES.
 [[nodiscard]] gl::Defines map_defines(const VplSet& set);
 
+// What decides on maps of the set, but for the lights themselves.
+[[nodiscard]] ContentKey content(const PassContext& context, const VplSet& set);
+
 // Imperfect shadow maps of a set of lights, in one atlas of R32UI (shaders/lib/ism.glsl).
 struct IsmAtlas {
     TextureHandle splats;  // before pull-push; invalid where there is none

@@ -2,6 +2,7 @@
 #include "passes/pass_context.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace bounce::passes {
 namespace {
@@ -161,6 +162,58 @@ void draw_batches(const PassContext& context, const View* view, bool mirrored, D
 }
 
 }  // namespace
+
+ContentKey drawn_content(const PassContext& context, const View* view, DrawKind kind,
+                         gpu::Geometry geometry) {
+    ContentHash hash;
+    hash.add(kind).add(geometry).add(context.blends);
+    if (view != nullptr) {
+        hash.add(content(context, view->uniforms)).add(view->mirrored).add(view->begins_near);
+    }
+    for (const gpu::DrawBatch& batch : context.scene.batches()) {
+        if (!is_drawn(batch.features, kind, context.blends)) {
+            continue;
+        }
+        const bool looks = !depth_only(kind) || batch.features.alpha_test;
+        for (const Run& run : seen_draws(context.scene, batch, view)) {
+            for (uint32_t draw = run.first; draw < run.first + run.count; ++draw) {
+                hash.add(context.scene.draw_content(draw, geometry));
+            }
+            hash.add(batch.cull_back_faces).add(batch.mirrored);
+            if (looks) {
+                hash.add(context.scene.material_content(batch));
+                hash.add(content(batch_defines(batch.features, kind, context.blends,
+                                               context.scene.source().from_blender)));
+            }
+        }
+    }
+    return hash.key();
+}
+
+ContentKey content(const PassContext& context, gpu::UniformArena::Slot slot) {
+    return ContentHash().add_all(context.uniforms.bytes(slot)).key();
+}
+
+ContentKey camera_content(const PassContext& context) {
+    gpu::FrameUniforms frame{};
+    std::memcpy(&frame, context.uniforms.bytes(context.frame).data(), sizeof(frame));
+    return ContentHash()
+        .add(frame.render_from_clip)
+        .add(frame.camera_position)
+        .add(frame.camera_forward)
+        .add(frame.size.x)
+        .add(frame.size.y)
+        .add(frame.interpolation.z)
+        .key();
+}
+
+ContentKey content(const gl::Defines& defines) {
+    ContentHash hash;
+    for (const auto& [name, value] : defines) {
+        hash.add_text(name).add_text(value);
+    }
+    return hash.key();
+}
 
 gl::Defines light_defines(const LightPass& light) {
     return {{"MAP_KIND", std::to_string(light.map_kind)}, {"PROFILE", std::to_string(light.profile)}};

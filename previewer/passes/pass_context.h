@@ -102,6 +102,16 @@ void draw_scene(const PassContext& context, const View& view, DrawKind kind, con
 void draw_batches(const PassContext& context, bool mirrored, DrawKind kind, const std::string& fragment,
                   const gl::Defines& defines, gpu::Geometry geometry = gpu::Geometry::whole);
 
+// What decides on what draw_scene() draws; view null: as draw_batches(). Materials where the kind looks at
+// them.
+[[nodiscard]] ContentKey drawn_content(const PassContext& context, const View* view, DrawKind kind,
+                                       gpu::Geometry geometry = gpu::Geometry::whole);
+// Of a uniform block.
+[[nodiscard]] ContentKey content(const PassContext& context, gpu::UniformArena::Slot slot);
+// Of what FrameUniforms say of the camera and the picture's size.
+[[nodiscard]] ContentKey camera_content(const PassContext& context);
+[[nodiscard]] ContentKey content(const gl::Defines& defines);
+
 // Work groups that cover a picture, and the barrier after which everything written is seen.
 void dispatch_2d(int width, int height);
 // Of GROUP_1D threads each; shaders find their place by gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x, or

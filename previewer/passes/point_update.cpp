@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 
 namespace {
@@ -34,14 +36,16 @@ void add_seals(const PassContext& context, gpu::PointStore& store) {
 }  // namespace
 
 ScenePoints add_point_update(FrameGraph& graph, const PassContext& context, gpu::PointStore& store) {
-    ScenePoints out{graph.import_buffer("points", store.points()),
-                    graph.import_buffer("large triangles", store.triangles())};
+    const ContentKey content = store.content();
     if (!store.any_changed()) {
-        return out;
+        return {graph.import_buffer("points", store.points(), k_point_floats, content),
+                graph.import_buffer("large triangles", store.triangles(), k_all_floats, content)};
     }
+    ScenePoints out{graph.import_buffer("points", store.points(), k_point_floats),
+                    graph.import_buffer("large triangles", store.triangles(), k_all_floats)};
     graph.add_pass("points", [&](PassBuilder& builder) {
-        out.points = builder.write(out.points);
-        out.triangles = builder.write(out.triangles);
+        out.points = builder.write(out.points, content);
+        out.triangles = builder.write(out.triangles, content);
         return [context, &store](const PassResources&) {
             context.programs.compute("passes/point_update.comp").use();
             store.bind_for_update();

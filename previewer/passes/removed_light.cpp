@@ -14,7 +14,8 @@ void add_removed_light(FrameGraph& graph, const PassContext& context, const GBuf
         if (removed.valid()) builder.read(removed);
         const size_t groups = static_cast<size_t>((context.width + GROUP_2D - 1) / GROUP_2D) *
                               static_cast<size_t>((context.height + GROUP_2D - 1) / GROUP_2D);
-        const BufferHandle sums = builder.create_buffer("reflected light of tiles", groups * sizeof(float));
+        const BufferHandle sums =
+            builder.create_buffer("reflected light of tiles", groups * sizeof(float), k_all_floats);
         builder.side_effect();
         return [context, gbuffer, indirect, removed, groups, sums, result](const PassResources& resources) {
             const auto mean = [&](TextureHandle light) {

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 
 TextureHandle add_rsm(FrameGraph& graph, const PassContext& context, const LightPass& light) {
@@ -12,10 +14,16 @@ TextureHandle add_rsm(FrameGraph& graph, const PassContext& context, const Light
                              .width = light.rsm_size,
                              .height = light.rsm_size,
                              .layers = static_cast<int>(light.faces.size())};
-        map = builder.create_texture("rsm", desc);
+        map = builder.create_texture("rsm", desc, k_rsm_floats);
         desc.format = GL_DEPTH_COMPONENT32F;
         desc.layers = 0;
         const TextureHandle depth = builder.create_texture("rsm depth", desc);
+        ContentHash hash;
+        hash.add(content(context, light.uniforms)).add(content(light_defines(light)));
+        for (const View& face : light.faces) {
+            hash.add(drawn_content(context, &face, DrawKind::light_surface));
+        }
+        builder.decided_by(hash.key());
         return [context, light, map, depth](const PassResources& resources) {
             constexpr std::array<GLuint, 4> empty{};
             const float far_depth = 0.0F;

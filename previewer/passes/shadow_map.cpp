@@ -11,6 +11,11 @@ TextureHandle add_shadow_map(FrameGraph& graph, const PassContext& context, cons
                                                     .height = light.shadow_size,
                                                     .layers = static_cast<int>(light.faces.size())});
         const DrawKind kind = light.soft.blended_only ? DrawKind::solid_depth : DrawKind::depth;
+        ContentHash hash;
+        for (const View& face : light.faces) {
+            hash.add(drawn_content(context, &face, kind));
+        }
+        builder.decided_by(hash.key());
         return [context, light, map, kind](const PassResources& resources) {
             const float far_depth = 0.0F;
             for (size_t face = 0; face < light.faces.size(); ++face) {

@@ -184,6 +184,11 @@ TextureHandle add_soft_maps(FrameGraph& graph, const PassContext& context, const
                                                            .height = soft.size,
                                                            .layers = soft.layers});
         const DrawKind kind = soft.blended_only ? DrawKind::blended_depth : DrawKind::hashed_depth;
+        ContentHash hash;
+        for (const SoftMaps::Face& face : soft.faces) {
+            hash.add(face.layer).add(drawn_content(context, &face.view, kind));
+        }
+        builder.decided_by(hash.key());
         return [context, soft, maps, kind](const PassResources& resources) {
             const float far_depth = 0.0F;
             for (const SoftMaps::Face& face : soft.faces) {

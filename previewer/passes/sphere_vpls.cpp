@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "passes/sphere_vpls.h"
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_choice.h"
 
 namespace bounce::passes {
@@ -14,6 +15,7 @@ VplSet add_vpls_from_sphere(FrameGraph& graph, const PassContext& context, const
     map.size = sphere.width;
     map.rows = sphere.height;
     map.declare = [](PassBuilder&) {};
+    map.content = ContentHash().add(content(context, sphere.uniforms)).add(sphere.content).key();
     map.bind = [context, sphere](const PassResources&) {
         context.uniforms.bind(UBO_SPHERE, sphere.uniforms);
         sphere.cells->bind_storage(SSBO_SPHERE);
@@ -28,7 +30,10 @@ VplSet add_vpls_from_sphere(FrameGraph& graph, const PassContext& context, const
     graph.add_pass("sphere vpls", [&](PassBuilder& builder) {
         builder.read(set.vpls);
         builder.read(choices);
-        out = builder.create_buffer("world lights", static_cast<size_t>(set.maps) * sizeof(gpu::GpuVpl));
+        out = builder.create_buffer("world lights", static_cast<size_t>(set.maps) * sizeof(gpu::GpuVpl),
+                                    k_vpl_floats);
+        builder.decided_by(
+            ContentHash().add(map.content).add(content(context, set)).add(chosen_a_subset).key());
         return [context, map, set, chosen_a_subset, choices, out](const PassResources& resources) {
             context.programs.compute("passes/sphere_vpls.comp").use();
             map.bind(resources);

@@ -9,6 +9,7 @@ namespace bounce::passes {
 // (shaders/lib/sphere.glsl).
 struct SphereSource {
     const gl::Buffer* cells = nullptr;
+    ContentKey content;                // of the cells
     gpu::UniformArena::Slot uniforms;  // SphereUniforms
     int width = 0;
     int height = 0;

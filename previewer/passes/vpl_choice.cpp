@@ -52,6 +52,13 @@ BufferHandle add_vpl_choice(FrameGraph& graph, const PassContext& context,
         const BufferHandle listed = builder.create_buffer("vpl sources", table.size() * sizeof(glm::uvec4));
         choices =
             builder.create_buffer("vpl choices", static_cast<size_t>(choosing.lights) * sizeof(glm::uvec4));
+        builder.decided_by(hash_of(sources)
+                               .add_all(std::span<const glm::uvec4>(table))
+                               .add(choosing.sampling)
+                               .add(choosing.lights)
+                               .add(choosing.steps)
+                               .add(choosing.seed)
+                               .key());
         return [context, tables, choosing, table, rows = rows_of(sources), listed,
                 choices](const PassResources& resources) {
             resources.buffer(listed).update(std::span<const glm::uvec4>(table));

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "passes/float_layouts.h"
+
 namespace bounce::passes {
 namespace {
 
 TextureHandle create_bounced(PassBuilder& builder, const PassContext& context) {
     return builder.create_texture("bounced light",
-                                  {.format = GL_RGBA32UI, .width = context.width, .height = context.height});
+                                  {.format = GL_RGBA32UI, .width = context.width, .height = context.height},
+                                  k_bounced_floats);
 }
 
 gl::Defines gather_defines(const PassContext& context, const VplGatherInputs& inputs, const VplSet& set) {

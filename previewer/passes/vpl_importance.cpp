@@ -12,7 +12,9 @@ BufferHandle add_pixels(FrameGraph& graph, const PassContext& context, const Imp
     graph.add_pass("importance pixels" + of, [&](PassBuilder& builder) {
         read_gbuffer(builder, view.gbuffer);
         pixels = builder.create_buffer("importance pixels",
-                                       static_cast<size_t>(view.pixels) * sizeof(gpu::GpuImportancePixel));
+                                       static_cast<size_t>(view.pixels) * sizeof(gpu::GpuImportancePixel),
+                                       k_all_floats);
+        builder.decided_by(ContentHash().add(camera_content(context)).add(view.pixels).add(view.seed).key());
         return [context, view, pixels](const PassResources& resources) {
             context.programs.compute("passes/importance_pixels.comp").use();
             context.uniforms.bind(UBO_FRAME, context.frame);
@@ -41,7 +43,10 @@ BufferHandle add_vpl_importance(FrameGraph& graph, const PassContext& context,
             source.declare(builder);
         }
         if (view) builder.read(pixels);
-        importance = builder.create_buffer("importance map", texels * sizeof(float));
+        importance = builder.create_buffer("importance map", texels * sizeof(float), k_all_floats);
+        ContentHash hash = hash_of(sources);
+        hash.add(lights).add(view ? view->pixels : 0).add(view ? view->floor : -1.0F);
+        builder.decided_by(hash.key());
         return [context, sources, view, pixels, importance, texels, lights](const PassResources& resources) {
             for_each_map(sources, [&](const MapSource& source, int, int first) {
                 gl::Defines defines = source.defines;
@@ -72,11 +77,12 @@ ImportanceTables add_importance_sums(FrameGraph& graph, const PassContext& conte
         if (importance.valid()) builder.read(importance);
         const int rows = rows_of(sources);
         const BufferHandle sums =
-            builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float));
+            builder.create_buffer("row sums", static_cast<size_t>(rows) * sizeof(float), k_all_floats);
         const BufferHandle texel_sums =
-            builder.create_buffer("texel sums", texels_of(sources) * sizeof(float));
+            builder.create_buffer("texel sums", texels_of(sources) * sizeof(float), k_all_floats);
         out.rows = sums;
         out.texels = texel_sums;
+        builder.decided_by(hash_of(sources).add(importance.valid()).add(even_rows).key());
         return [context, sources, importance, rows, sums, texel_sums,
                 even_rows](const PassResources& resources) {
             for_each_map(sources, [&](const MapSource& source, int row, int texel) {

@@ -17,6 +17,7 @@ struct MapSource {
     int rows = 0;
     glm::vec2 share{0.0F, 1.0F};  // uniform: which part of the sequence's first coordinate is this source's
     std::function<void(PassBuilder&)> declare;
+    ContentKey content;  // of all that bind() gives, but what declare() reads
     std::function<void(const PassResources&)> bind;
 
     [[nodiscard]] int texels() const { return rows * size; }
@@ -26,6 +27,16 @@ struct MapSource {
     if (glossy) defines["GLOSSY"] = "1";
     if (context.scene.has_disney_diffuse()) defines["DISNEY"] = "1";
     return defines;
+}
+
+// What decides on what is read of the maps, but for the graph's own.
+[[nodiscard]] inline ContentHash hash_of(const std::vector<MapSource>& sources) {
+    ContentHash hash;
+    for (const MapSource& source : sources) {
+        hash.add(content(source.defines)).add(glm::ivec2(source.size, source.rows)).add(source.share);
+        hash.add(source.content);
+    }
+    return hash;
 }
 
 // Calls visit(source, its first row, its first texel) for one after the other.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "passes/float_layouts.h"
 #include "passes/vpl_choice.h"
 #include "passes/vpl_map_source.h"
 
@@ -35,7 +36,10 @@ BufferHandle add_draw(FrameGraph& graph, const PassContext& context, const std::
             builder.read(tables.buffers.texels);
             if (mapped) builder.read(importance);
         }
-        vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl));
+        vpls = builder.create_buffer("vpls", static_cast<size_t>(layout.maps) * sizeof(gpu::GpuVpl),
+                                     k_vpl_floats);
+        builder.decided_by(
+            hash_of(sources).add(content(context, layout)).add(sampling).add(mapped).add(chosen).key());
         return [context, sources, layout, rows = rows_of(sources), tables, vpls, uniform, chosen, mapped,
                 importance](const PassResources& resources) {
             GLuint number = 0;
@@ -123,6 +127,10 @@ BufferHandle add_spacing(FrameGraph& graph, const PassContext& context, const Vp
     BufferHandle out;
     graph.add_pass("vpl spacing", [&](PassBuilder& builder) {
         out = builder.write(set.vpls);
+        ContentHash hash;
+        hash.add(content(context, set));
+        if (traced != nullptr) hash.add(content(context, *traced));
+        builder.decided_by(hash.key());
         return [context, set, out, grid = traced == nullptr ? gpu::UniformArena::Slot{} : *traced,
                 traced = traced != nullptr](const PassResources& resources) {
             gl::Defines defines;
@@ -164,6 +172,7 @@ DrawnVpls add_vpls_from_rsms(FrameGraph& graph, const PassContext& context,
         all.push_back({with_lobes(light_defines(light), context, drawing.glossy), light.rsm_size,
                        light.rsm_size * static_cast<int>(light.faces.size()), share,
                        [source](PassBuilder& builder) { builder.read(source.rsm); },
+                       content(context, light.uniforms),
                        [context, source](const PassResources& resources) {
                            context.uniforms.bind(UBO_LIGHT, source.light.uniforms);
                            resources.texture(source.rsm).bind(TEX_RSM);
@@ -193,6 +202,11 @@ DrawnVpls add_vpls_from_irsms(FrameGraph& graph, const PassContext& context, con
                              builder.read(source.set.vpls);
                              builder.read(source.scene.points);
                          },
+                         ContentHash()
+                             .add(content(context, source.set))
+                             .add(context.scene.content())
+                             .add(source.store->content())
+                             .key(),
                          [context, source, map, splatted](const PassResources& resources) {
                              context.uniforms.bind(UBO_ISM, source.set.uniforms);
                              context.scene.bind_materials();

@@ -26,7 +26,8 @@ double profile_at(const LightSetup& light, double z) {
     const glm::dvec4 cone(light.gpu.cone);
     const glm::dvec4 area(light.gpu.area);
     const auto edge = [&] {
-        return cone.y > 0.0 ? std::clamp((z - cone.x) * cone.y, 0.0, 1.0) : (z > cone.x ? 1.0 : 0.0);
+        const double within = cone.x - (1.0 - z);
+        return cone.y > 0.0 ? std::clamp(within * cone.y, 0.0, 1.0) : (within > 0.0 ? 1.0 : 0.0);
     };
     switch (light.profile) {
         case PROFILE_SPOT_CYCLES_3: {
@@ -53,7 +54,7 @@ double least_cosine(const LightSetup& light) {
     switch (light.profile) {
         case PROFILE_SPOT_CYCLES_3:
         case PROFILE_SPOT_CYCLES_4:
-            return static_cast<double>(light.gpu.cone.x);
+            return 1.0 - static_cast<double>(light.gpu.cone.x);
         case PROFILE_SPOT_KHRONOS:
             return std::clamp(-static_cast<double>(light.gpu.cone.y) / static_cast<double>(light.gpu.cone.x),
                               -1.0, 1.0);

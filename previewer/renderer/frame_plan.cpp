@@ -7,6 +7,7 @@
 
 #include "renderer/bounce_places.h"
 #include "renderer/penumbra.h"
+#include "renderer/plan_details.h"
 #include "scene/transparency.h"
 
 namespace bounce {
@@ -87,7 +88,7 @@ bool throws_penumbra(const scene::LightInstance& instance, const scene::Light& l
     if (!(light_extent(instance, light) > 0.0)) {
         return leave_out("the light has no size");
     }
-    if (sight != nullptr &&
+    if (sight != nullptr && settings.forced != Forced::all &&
         widest_penumbra_m(instance, light, sight->bounds) < k_least_penumbra_pixels * sight->finest_pixel_m) {
         return leave_out("its penumbra is narrower than half a pixel everywhere");
     }
@@ -134,7 +135,7 @@ void plan_lights(const scene::Pose& pose, const Settings& settings, const Sight*
                             "places on it",
                             light.name));
         }
-        plan.veiled.push_back(plan.blends && plan.shadows.back() && !plan.soft.back() &&
+        plan.veiled.push_back(plan.veils && plan.shadows.back() && !plan.soft.back() &&
                               settings.direct_shadows != DirectShadows::hard);
         const bool bounces = plan.indirect && !plan.takes_light.back();
         plan.places.push_back(bounces && sight != nullptr
@@ -206,13 +207,15 @@ void plan_materials(const scene::Scene& scene, const scene::Pose& pose, const Se
     }
     plan.emitters = emitters;
     plan.receives = receives;
+    plan.emission |= settings.forced != Forced::nothing;
     if (!plan.emission) {
         plan.left_out.push_back({"emission", "no visible surface emits"});
     }
 }
 
-// Whether what emits lights anything. plan.emitters: whether anything that is drawn emits.
-void plan_emitters(const Settings& settings, bool whole, FramePlan& plan) {
+// Whether what emits lights anything. plan.emitters: whether anything that is drawn emits. bounces: of its
+// light.
+void plan_emitters(const Settings& settings, bool whole, int bounces, FramePlan& plan) {
     const bool emits = plan.emitters;
     plan.emitters = emits && plan.receives && whole && settings.emitter_vpls > 0;
     if (!plan.emitters) {
@@ -227,14 +230,16 @@ void plan_emitters(const Settings& settings, bool whole, FramePlan& plan) {
         return;
     }
     const bool ism = settings.technique == Technique::ism;
-    plan.emitter_bounces = ism ? settings.bounces : 0;
+    plan.emitter_bounces = ism ? bounces : 0;
     plan.emitters_occluded = !ism || settings.visibility != Visibility::none;
 }
 
 void plan_transparency(const scene::Scene& scene, const scene::Pose& pose, const Settings& settings,
                        FramePlan& plan) {
     const bool any = scene::draws_blended(scene, pose);
-    plan.blends = any && settings.transparent_layers > 0;
+    const bool forced = settings.forced != Forced::nothing;
+    plan.blends = (any || forced) && settings.transparent_layers > 0;
+    plan.veils = any && plan.blends;
     const bool shown =
         shows_light(settings.show) && settings.show != Show::unblurred && settings.show != Show::removed;
     plan.blend_layers =
@@ -320,7 +325,24 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     plan.vpls = plan.indirect && settings.technique == Technique::ism && !shows_rsm(settings.show);
     plan.traced = plan.vpls && settings.traces_first();
     plan.near_field = plan.vpls && settings.near_field && !plan.traced;
-    plan.bounces = plan.vpls ? settings.bounces : 0;
+    const double albedo = albedo_bound(scene, pose, settings.glossy_bounces);
+    const int counted =
+        settings.forced == Forced::all ? settings.bounces : counted_bounces(settings.bounces, albedo);
+    if (plan.vpls && counted < settings.bounces) {
+        plan.left_out.push_back(
+            {"further bounces",
+             fmt::format(
+                 "no surface reflects more than {:.2g} of the light, so less than {:g} of it is to come "
+                 "after {}",
+                 albedo, k_least_bounced_share,
+                 counted == 0   ? "direct light"
+                 : counted == 1 ? "the first bounce"
+                                : fmt::format("{} bounces", counted))});
+    }
+    plan.bounces = plan.vpls ? counted : 0;
+    if (plan.vpls && plan.bounces == 0) {
+        plan.vpls = plan.near_field = plan.traced = plan.indirect = false;
+    }
     plan.interpolate = plan.indirect && settings.technique == Technique::rsm && settings.interpolate &&
                        settings.lowres_step > 1 && !settings.rsm_full_sum;
     if (plan.indirect && settings.technique == Technique::rsm && !plan.interpolate) {
@@ -337,7 +359,8 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     const bool whole = settings.show == Show::shaded || settings.show == Show::vpls;
     plan.world_light = !is_dark(pose.world.color * pose.world.strength) && whole;
     plan.environment = plan.world_light && scene.environment.has_value();
-    plan.world_occluded = plan.world_light && settings.world_vpls > 0 && draws_triangles(scene, pose);
+    plan.world_occluded = (plan.world_light || (whole && settings.forced == Forced::all)) &&
+                          settings.world_vpls > 0 && draws_triangles(scene, pose);
     if (!plan.world_occluded) {
         plan.left_out.push_back({"world lights", !plan.world_light && whole ? "the world is black"
                                                  : !plan.world_light ? "the layer shows other light alone"
@@ -346,10 +369,9 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
                                                      : "nothing that is drawn has a triangle"});
     }
     plan.world_bounces =
-        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show)
-            ? settings.bounces
-            : 0;
-    plan_emitters(settings, whole, plan);
+        plan.world_occluded && settings.technique == Technique::ism && !shows_rsm(settings.show) ? counted
+                                                                                                 : 0;
+    plan_emitters(settings, whole, counted, plan);
     plan_grid(settings, plan);
     if (plan.world_bounces + plan.emitter_bounces > 0) {
         std::erase(plan.notes, std::string("no bounced light: ") + k_no_light);
@@ -379,6 +401,8 @@ FramePlan plan_frame(const scene::Scene& scene, const scene::Pose& pose, const S
     } else if (!plan.world_light && whole) {
         plan.left_out.push_back({"world light", "the world is black"});
     }
+    const std::vector<LeftOut> absent = absent_details(scene, pose, settings, plan);
+    plan.left_out.insert(plan.left_out.end(), absent.begin(), absent.end());
     return plan;
 }
 

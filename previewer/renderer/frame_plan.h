@@ -42,6 +42,7 @@ struct FramePlan {
     int emitter_bounces = 0;      // of their light
     bool emitters_occluded = false;
     bool blends = false;             // blended surfaces have layers of their own
+    bool veils = false;              // and there are some
     int blend_layers = 0;            // at most so many, where there are any
     bool avg = false;                // the approximate visibility grid is filled
     bool traced = false;             // the first bounce's lights are where rays from the lights meet it

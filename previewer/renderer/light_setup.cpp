@@ -143,8 +143,10 @@ void set_up_spot(const scene::Light& light, gpu::GpuLight& gpu, int& profile) {
         return;
     }
     profile = light.profile == scene::SpotProfile::cycles_4 ? PROFILE_SPOT_CYCLES_4 : PROFILE_SPOT_CYCLES_3;
-    const double width = (1.0 - cos_half) * static_cast<double>(light.blend);
-    gpu.cone = glm::vec4(glm::dvec4(cos_half, width > 1e-9 ? 1.0 / width : 0.0, 0.0, 0.0));
+    // Of the double angle's half: 1 - cos would lose the digits of a narrow cone.
+    const double versine = 2.0 * std::sin(0.5 * half) * std::sin(0.5 * half);
+    const double width = versine * static_cast<double>(light.blend);
+    gpu.cone = glm::vec4(glm::dvec4(versine, width > 1e-9 ? 1.0 / width : 0.0, 0.0, 0.0));
 }
 
 // A soft box whose slats hide light beyond spread/2, its power kept: integral of cos (1 - tan a tan) over the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "passes/convolution_shadow.h"
 #include "passes/direct_light.h"
 #include "passes/emitter_lights.h"
+#include "passes/float_layouts.h"
 #include "passes/gbuffer.h"
 #include "passes/irsm.h"
 #include "passes/ism.h"
@@ -123,7 +125,7 @@ passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer
 passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                          const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
-    world.vpls = graph.import_buffer("world lights", *in.world_lights);
+    world.vpls = graph.import_buffer("world lights", *in.world_lights, passes::k_vpl_floats, in.world_content);
     if (in.sphere.cells != nullptr) {
         world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
     }
@@ -155,7 +157,8 @@ passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const pas
 passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs& in,
                                          const passes::ScenePoints& scene, size_t light) {
     passes::ImperfectMaps maps = in.imperfect[light];
-    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light]);
+    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light], passes::k_vpl_floats,
+                                        in.places_content[light]);
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
@@ -167,8 +170,8 @@ passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs
 
 // The lights on emissive surfaces and their shadow maps.
 passes::VplSet add_emitters(FrameGraph& graph, const PipelineInputs& in, const passes::ScenePoints& scene) {
-    passes::VplSet emitters =
-        passes::add_emitter_lights(graph, in.context, *in.emitter_store, in.emitters.lights);
+    passes::VplSet emitters = passes::add_emitter_lights(graph, in.context, *in.emitter_store,
+                                                         in.points->content(), in.emitters.lights);
     if (in.plan.emitters_occluded) {
         emitters.atlas = add_maps(graph, in, scene, emitters).atlas;
     }
@@ -193,6 +196,7 @@ passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgG
             .paths = in.settings.avg_paths,
             .numbers = in.avg.numbers,
             .sequences = k_avg_sequences,
+            .rays = in.avg.rays_content,
             .bounce = number,
             .glossy = in.plan.glossy};
 }
@@ -539,6 +543,25 @@ void read_reflected_flux(FrameGraph& graph, const passes::VplImportance& importa
     });
 }
 
+// Virtual point lights are drawn from the sources in the order of their names, so that they are the same
+// whatever the order of the scene's nodes. firsts: indices of some sources, which go with them.
+void sort_by_name(std::vector<passes::RsmSource>& sources, std::vector<size_t>& firsts) {
+    std::vector<size_t> order(sources.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return sources[a].light.name < sources[b].light.name; });
+    std::vector<passes::RsmSource> sorted;
+    std::vector<size_t> place(sources.size());
+    for (const size_t i : order) {
+        place[i] = sorted.size();
+        sorted.push_back(sources[i]);
+    }
+    sources = std::move(sorted);
+    for (size_t& first : firsts) {
+        first = place[first];
+    }
+}
+
 }  // namespace
 
 void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
@@ -601,6 +624,8 @@ void build_pipeline(FrameGraph& graph, const PipelineInputs& in) {
             }
         }
     }
+
+    sort_by_name(gather.sources, first_places);
 
     const auto shown = static_cast<size_t>(in.settings.shown_light);
     if (shows_rsm(in.settings.show) && shown < first_places.size()) {

@@ -58,6 +58,7 @@ struct AvgInputs {
     passes::AvgGrid grid;
     const gl::Buffer* numbers = nullptr;
     const gl::Buffer* rays = nullptr;  // where plan.traced
+    ContentKey rays_content;
 };
 
 struct PipelineInputs {
@@ -70,11 +71,13 @@ struct PipelineInputs {
     // none.
     std::vector<passes::ImperfectMaps> imperfect;
     std::vector<gl::Buffer>* places = nullptr;
+    std::vector<ContentKey> places_content;   // parallel to `places`
     std::vector<BounceStart> bounce_sources;  // in their order, one of each at least
     gpu::PointStore* points = nullptr;        // where the plan needs them
     std::vector<Bounce> bounces;              // plan.bounces of them
     Bounce world;                             // where plan.world_occluded; its lights' buffer:
     gl::Buffer* world_lights = nullptr;
+    ContentKey world_content;     // of that
     passes::SphereSource sphere;  // where its lights are drawn from cells of the sphere; else without any
     passes::WorldImage image;     // where plan.environment
     std::vector<Bounce> world_bounces;  // plan.world_bounces of them

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gl/debug_output.h"
 #include "passes/deform.h"
+#include "passes/finite_check.h"
 #include "renderer/avg_layout.h"
 #include "renderer/bounce_places.h"
 #include "renderer/imperfect_setup.h"
@@ -50,21 +51,23 @@ double box_surface_m2(const scene::Bounds& box) {
 }
 
 // Brings bounced light into the range of half floats, 6e-5 to 65504: the irradiance that the lights would
-// give to a closed box around the scene becomes about a sixteenth. That leaves a factor of a thousand for
-// what is darker with all its digits, and of a million for what is brighter. A power of two costs no digit
-// itself.
+// give to a closed box around the scene becomes a sixteenth. That leaves a factor of a thousand for what is
+// darker with all its digits, and of a million for what is brighter. Not just the next power of two, so that
+// light a million times as strong is the same halves.
 float half_scale(const std::vector<double>& fluxes_w, const scene::Bounds& bounds, double world_irradiance) {
     const double box = box_surface_m2(bounds);
     const double irradiance = std::accumulate(fluxes_w.begin(), fluxes_w.end(), 0.0) / box + world_irradiance;
     if (!(irradiance > 0.0) || !std::isfinite(irradiance)) {
         return 1.0F;
     }
-    return static_cast<float>(std::exp2(std::clamp(-4.0 - std::round(std::log2(irradiance)), -120.0, 120.0)));
+    return static_cast<float>(std::clamp(0x1p-4 / irradiance, 0x1p-120, 0x1p120));
 }
 
 // Texels a side of an imperfect reflective shadow map: it decides where the next bounce's lights stand, not
 // what they are hidden from.
 constexpr int k_irsm_size = 32;
+
+constexpr const char* k_unchanged = "what it makes is as in the frame before";
 
 // Imperfect shadow maps are drawn from points; classic ones from triangles.
 bool splats_points(const FramePlan& plan, const Settings& settings) {
@@ -166,6 +169,21 @@ std::vector<Region> receivers_in(const gpu::GpuScene& scene, const CameraMatrice
                         camera.render_from_clip);
 }
 
+bool is_black(const Image& picture) {
+    return std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float value) { return value == 0.0F; });
+}
+
+// What a run can be repeated with, beside the settings.
+void throw_on_fault(const std::string& fault, const scene::Scene& scene, const scene::Pose& pose,
+                    uint32_t seed) {
+    if (!fault.empty()) {
+        throw Error(ExitCode::failed,
+                    fmt::format("{}; scene {}, time {:g} s (frame {:g}), seed {}", fault,
+                                scene.name.empty() ? "without a name" : scene.name, pose.time_s,
+                                scene.frames.start + pose.time_s * scene.frames.fps, seed));
+    }
+}
+
 passes::SoftMaps soft_maps(const SoftSetup& setup, gpu::UniformArena& uniforms) {
     passes::SoftMaps out;
     out.map_kind = setup.map_kind;
@@ -242,6 +260,7 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         sphere_cells_ = gl::Buffer::of("sphere cells", std::span<const glm::vec4>(cells.light));
         sphere_radiance_ = radiance;
         sphere_grid_ = {cells.width, cells.height};
+        sphere_content_ = ContentHash().add_all(std::span<const glm::vec4>(cells.light)).key();
     }
     gpu::SphereUniforms uniforms{};
     if (environment_) {
@@ -253,8 +272,8 @@ passes::SphereSource Renderer::prepare_sphere(const scene::World& world) {
         uniforms.grid = {sphere_grid_, 0, 0};
         uniforms.light = {1.0F, 0.0F, 0.0F, 0.0F};  // without an image nothing averages visibility
     }
-    return {&sphere_cells_, uniforms_.add(uniforms), sphere_grid_.x, sphere_grid_.y,
-            environment_ && environment_->has_suns()};
+    return {&sphere_cells_, sphere_content_, uniforms_.add(uniforms),
+            sphere_grid_.x, sphere_grid_.y,  environment_ && environment_->has_suns()};
 }
 
 SplatChoice Renderer::chosen_splat(const Settings& settings, const FramePlan& plan, int points_a_map,
@@ -290,6 +309,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
     }
     const bool splats = splats_points(plan, settings);
     const bool needs_points = points_needed(plan, settings);
+    settings.drop_hull = settings.drop_hull && settings.forced != Forced::all;
     IsmLayout first = ism_layout(settings, 1, 0);
     IsmLayout irsm = first;
     irsm.map_size = k_irsm_size;
@@ -348,6 +368,7 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         // What is on the hull hides no place of the scene from another, but the world from both.
         // Nor do lights of the scene all stand within it.
         counts.hull_hides = plan.world_occluded || plan.imperfect_shadows;
+        points_->plan_only(plans_only_);
         points_->set_pose(pose, gpu_scene_.space(), gpu_scene_.vertices(), counts, drop_hull,
                           plan.world_bounces > 0);
         out.triangles =
@@ -428,7 +449,11 @@ Renderer::LitBounces Renderer::prepare_bounces(const scene::Pose& pose,
         const std::vector<gpu::GpuVpl> made =
             environment_ ? environment_->lights(pose.world, layout, maps)
                          : world_lights(pose.world.color * pose.world.strength, layout, maps, chosen.seed);
-        world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+        const ContentKey content = ContentHash().add_all(std::span<const gpu::GpuVpl>(made)).key();
+        if (content != world_content_) {
+            world_lights_ = gl::Buffer::of("world lights", std::span<const gpu::GpuVpl>(made));
+            world_content_ = content;
+        }
         // Orthographic maps are drawn from disks, and bounces drawn from points, whatever those of the others
         // are.
         Settings disks = settings;
@@ -462,6 +487,7 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
     std::vector<passes::ImperfectMaps> out(lights);
     places_.clear();
     places_.resize(lights);
+    places_content_.assign(lights, {});
     for (const Imperfect& light : imperfect) {
         const bool tessellates =
             settings.splat == Splat::tessellation && light.of.type != scene::LightType::sun;
@@ -475,6 +501,7 @@ std::vector<passes::ImperfectMaps> Renderer::prepare_imperfect(
             settings, places * imperfect_maps_a_place(light.setup, light.of, receivers), points);
         const ImperfectSetup made = set_up_imperfect_shadow(light.setup, light.of, receivers, places, layout);
         places_[light.light] = gl::Buffer::of("places on a light", std::span<const gpu::GpuVpl>(made.maps));
+        places_content_[light.light] = ContentHash().add_all(std::span<const gpu::GpuVpl>(made.maps)).key();
         passes::ImperfectMaps& maps = out[light.light];
         maps.places = places;
         maps.set = vpl_set(layout);
@@ -521,6 +548,7 @@ AvgInputs Renderer::prepare_avg(const std::vector<AvgRayLight>& lights, const Se
         const std::vector<gpu::GpuAvgRay> rays = avg_rays(lights, first);
         avg_rays_ = gl::Buffer::of("avg rays", std::span<const gpu::GpuAvgRay>(rays));
         out.rays = &avg_rays_;
+        out.rays_content = ContentHash().add_all(std::span<const gpu::GpuAvgRay>(rays)).key();
     }
     return out;
 }
@@ -551,6 +579,18 @@ FrameReport Renderer::render_whole(const scene::Pose& pose, const CameraView& vi
                           pose.light_instances.size(), one_of_many);
     }
     return render_lit(pose, view, settings, timing, before, pose.light_instances.size(), one_of_many);
+}
+
+FrameReport Renderer::plan(const scene::Pose& pose, const CameraView& view, const Settings& settings) {
+    plans_only_ = true;
+    try {
+        FrameReport report = render_whole(pose, view, settings, gl::TimingMode::off, nullptr, nullptr);
+        plans_only_ = false;
+        return report;
+    } catch (...) {
+        plans_only_ = false;
+        throw;
+    }
 }
 
 FrameReport Renderer::render_one_of_many(const scene::Pose& pose, const CameraView& view,
@@ -608,6 +648,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         color_ = gl::Texture("color", target);
     }
 
+    pool_.hold_idle(!settings.frees_idle);
     gl::PassTimer timer(timing);
     const Moment still{of_scene, view};
     const Moment& previous = before != nullptr ? *before : still;
@@ -617,6 +658,7 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         }
         previous_->draw(gpu_scene_, programs_, pool_, uniforms_, previous, settings, timer, report.executed);
     }
+    gpu_scene_.force_features(settings.forced != Forced::nothing);
     gpu_scene_.set_pose(of_scene);
     const std::optional<scene::PanelPose> with_panels = light_panels(of_scene, settings);
     const scene::Pose& pose = with_panels ? with_panels->pose : of_scene;
@@ -746,6 +788,10 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
             source_fluxes.push_back(bounce_sources.back().pass.flux_w);
         }
     }
+    // As sort_by_name() in pipeline.cpp.
+    std::stable_sort(
+        ray_lights.begin(), ray_lights.end(),
+        [](const AvgRayLight& a, const AvgRayLight& b) { return a.setup.name < b.setup.name; });
     report.lights = static_cast<int>(lights.size());
     const LitBounces bounces = prepare_bounces(pose, panels, settings, plan, report, choice);
     const AvgInputs avg = prepare_avg(ray_lights, settings, plan);
@@ -797,11 +843,24 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
         report.removed.emplace();
     }
 
-    if (plan.deform) {
+    std::optional<passes::FiniteCheck> check;
+    if (settings.check_finite) {
+        check.emplace(programs_, settings.width, settings.height);
+    }
+    if (plans_only_) {
+        if (plan.deform) {
+            report.executed.emplace_back("deform");
+        }
+    } else if (plan.deform && !gpu_scene_.vertices().deform_due() && settings.forced == Forced::nothing) {
+        report.left_out.push_back({"deform", "joints and morph weights are as in the frame before"});
+    } else if (plan.deform) {
         timer.begin("deform");
         passes::run_deform(programs_, gpu_scene_);
         timer.end();
         gl::throw_on_debug_error("deform");
+        if (check) {
+            check->wrote("deform", "vertex positions", gpu_scene_.vertices().positions(), k_all_floats);
+        }
         report.executed.emplace_back("deform");
     }
     FrameGraph graph(pool_);
@@ -819,11 +878,13 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .lights = lights,
                 .imperfect = imperfect_maps,
                 .places = &places_,
+                .places_content = places_content_,
                 .bounce_sources = bounce_sources,
                 .points = points_needed(plan, settings) ? points_.get() : nullptr,
                 .bounces = bounces.bounces,
                 .world = bounces.world,
                 .world_lights = &world_lights_,
+                .world_content = world_content_,
                 .sphere = bounces.sphere,
                 .image = image,
                 .world_bounces = bounces.world_bounces,
@@ -845,10 +906,33 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
                 .reflected_flux = settings.find_unlit ? &reflected_flux : nullptr,
                 .unpeeled_pixels = plan.blend_layers > 0 ? &unpeeled_pixels : nullptr,
                 .anything_seen = settings.find_unlit && plan.blend_layers == 0 ? &anything_seen : nullptr});
-    graph.execute(timer);
+    const bool keeps = one_of_many == nullptr && settings.forced == Forced::nothing;
+    if (plans_only_) {
+        const FrameGraph::Forecast forecast = graph.forecast(keeps && contents_.on(), !settings.frees_idle);
+        report.executed.insert(report.executed.end(), forecast.passes.begin(), forecast.passes.end());
+        for (const std::string& pass : forecast.culled) {
+            report.left_out.push_back({pass, "nothing reads what it makes"});
+        }
+        size_t lasting = gl::allocated_bytes() - pool_.bytes() - contents_.bytes();
+        if (points_) {
+            lasting += points_->bytes() - points_->allocated_bytes();
+        }
+        report.memory = {.lasting = lasting, .passes = forecast.peak_bytes};
+        return report;
+    }
+    if (settings.forced != Forced::nothing) {
+        graph.ignore_conditions();
+    }
+    graph.execute(timer, keeps ? &contents_ : nullptr, check ? &*check : nullptr);
+    if (check) {
+        throw_on_fault(check->fault(), scene_, pose, choice.seed);
+    }
     report.executed.insert(report.executed.end(), graph.executed().begin(), graph.executed().end());
     for (const std::string& pass : graph.culled()) {
         report.left_out.push_back({pass, "nothing reads what it makes"});
+    }
+    for (const std::string& pass : graph.unchanged()) {
+        report.left_out.push_back({pass, k_unchanged});
     }
     for (const std::string& pass : graph.skipped()) {
         report.left_out.push_back({pass, "no blended surface is in its layer"});
@@ -867,17 +951,22 @@ FrameReport Renderer::render_lit(const scene::Pose& of_scene, const CameraView& 
     if (!anything_seen && !pose.draws.empty()) {
         report.notes.emplace_back("the camera sees no surface of the scene");
     }
+    if (settings.find_unlit && report.notes.empty() && shows_light(settings.show) && is_black(read_color())) {
+        report.notes.emplace_back("the picture is black: no light reaches what the camera sees of the scene");
+    }
     if (report.reuse && settings.count_gathered_pixels) {
         report.reuse->share = reused_pixels.surfaces > 0
                                   ? static_cast<double>(reused_pixels.reused) / reused_pixels.surfaces
                                   : 0.0;
     }
+    gl::throw_on_lost_context();
     pool_.end_frame();
     report.passes = timer.collect();
     return report;
 }
 
-void Renderer::keep_history() {
+void Renderer::keep_frame() {
+    contents_.keep_frame(pool_);
     if (history_) {
         history_->keep(gpu_scene_);
     }

@@ -65,6 +65,14 @@ struct FrameReport {
         std::string reason;
     };
     std::optional<Reuse> reuse;
+    // Textures and buffers, bytes: of the scene and what outlives frames, and what this frame's passes have
+    // at once.
+    struct Memory {
+        size_t lasting = 0;
+        size_t passes = 0;
+        [[nodiscard]] size_t peak() const { return lasting + passes; }
+    };
+    std::optional<Memory> memory;      // of Renderer::plan()
     std::optional<SplatChoice> splat;  // where Splat::automatic was asked for and maps are drawn
 };
 
@@ -94,10 +102,21 @@ class Renderer {
     // them: red, green, blue and error, top row first.
     [[nodiscard]] std::vector<glm::vec4> resolve_many();
 
-    // With Settings::temporal_reuse each frame takes light of the one that was drawn last before
-    // keep_history(), so that a frame drawn twice is the same twice; none after forget_history(), nor after a
-    // frame without that setting.
-    void keep_history();
+    // What render() would do, without drawing: executed and left_out are those of a frame for which nothing
+    // was kept, and the memory is what it would allocate. Points and buffers of the scene are made. Throws
+    // the same.
+    FrameReport plan(const scene::Pose& pose, const CameraView& camera, const Settings& settings);
+
+    // Whether more frames of this scene are to come: what passes made and what is still the same in the frame
+    // after keep_frame() is then not made again. A picture is the same either way, to the bit.
+    void expect_frames(bool more) { contents_.set_on(more, pool_); }
+    [[nodiscard]] bool expects_frames() const { return contents_.on(); }
+    // The frame that was drawn last is the frame before the next one, for all that goes on from frame to
+    // frame. A frame may be drawn several times before: each starts from the same. With
+    // Settings::temporal_reuse each frame takes light of the one that was drawn last before keep_frame(), so
+    // that a frame drawn twice is the same twice; none after forget_history(), nor after a frame without that
+    // setting.
+    void keep_frame();
     void forget_history();
 
     // Scene-linear radiance times film exposure, RGBA32F, bottom row first; of the last frame.
@@ -107,7 +126,10 @@ class Renderer {
 
     [[nodiscard]] const gpu::GpuScene& gpu_scene() const { return gpu_scene_; }
     // Forgets compiled shaders, so that changed sources ($BOUNCE_SHADER_DIR) are compiled again.
-    void reload_shaders() { programs_.clear(); }
+    void reload_shaders() {
+        programs_.clear();
+        contents_.clear(pool_);
+    }
 
   private:
     // Which of all that could be chosen are the virtual point lights.
@@ -178,6 +200,8 @@ class Renderer {
     std::unique_ptr<gpu::TrianglePatches> patches_;  // the same
     gl::ProgramCache programs_;
     TransientPool pool_;
+    KeptContents contents_;
+    bool plans_only_ = false;  // nothing is drawn
     gpu::UniformArena uniforms_;
     std::unique_ptr<PreviousFrameSource> previous_;  // made when motion is first asked for
     std::unique_ptr<LightHistory> history_;          // made when light is first reused, gone when it is not
@@ -187,13 +211,16 @@ class Renderer {
     // Sample patterns by kind and count, each made once.
     std::map<std::pair<passes::RsmPattern, int>, gl::Buffer> patterns_;
     gl::Buffer world_lights_;
+    ContentKey world_content_;  // of these
     gl::Buffer sphere_cells_;
+    ContentKey sphere_content_;
     glm::ivec2 sphere_grid_{0};         // cells across and down
     glm::vec3 sphere_radiance_{-1.0F};  // that the cells were made of; of an image: 0
     scene::Bounds first_bounds_;        // where the animation begins
     gl::Buffer avg_rays_;
     gl::Buffer avg_numbers_;
     std::vector<gl::Buffer> places_;                 // on lights, for imperfect maps
+    std::vector<ContentKey> places_content_;         // of these
     std::unique_ptr<EnvironmentWorld> environment_;  // where the scene has an image of its world
     std::unique_ptr<gpu::LobeTable> lobes_;  // made when a glossy surface first meets a light with a size
     scene::EmissivePanels panels_;           // of so many sides at most

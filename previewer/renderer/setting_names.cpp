@@ -111,6 +111,13 @@ const std::map<std::string, PullPush>& setting_names<PullPush>() {
 }
 
 template <>
+const std::map<std::string, Forced>& setting_names<Forced>() {
+    static const std::map<std::string, Forced> names = {
+        {"nothing", Forced::nothing}, {"exact", Forced::exact}, {"all", Forced::all}};
+    return names;
+}
+
+template <>
 const std::map<std::string, Show>& setting_names<Show>() {
     static const std::map<std::string, Show> names = {{"shaded", Show::shaded},
                                                       {"direct", Show::direct},

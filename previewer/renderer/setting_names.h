@@ -11,7 +11,7 @@
 namespace bounce {
 
 // For Technique, Visibility, Shading, VplSampling, Importance, WorldSampling, BounceSource, AvgHits,
-// AvgPaths, MapProjection, DirectShadows, Splat, PullPush, Show and passes::RsmPattern.
+// AvgPaths, MapProjection, DirectShadows, Splat, PullPush, Forced, Show and passes::RsmPattern.
 template <typename T>
 [[nodiscard]] const std::map<std::string, T>& setting_names();
 
@@ -51,6 +51,8 @@ template <>
 [[nodiscard]] const std::map<std::string, Splat>& setting_names<Splat>();
 template <>
 [[nodiscard]] const std::map<std::string, PullPush>& setting_names<PullPush>();
+template <>
+[[nodiscard]] const std::map<std::string, Forced>& setting_names<Forced>();
 template <>
 [[nodiscard]] const std::map<std::string, Show>& setting_names<Show>();
 template <>

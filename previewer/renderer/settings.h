@@ -36,6 +36,13 @@ enum class DirectShadows {
     ism,          // from many places on them, an imperfect shadow map each
 };
 
+// What is done although the scene does not need it, to see what leaving out saves.
+enum class Forced {
+    nothing,
+    exact,  // all that leaves the picture the same, to the bit
+    all,    // and what is left out by an estimate: the picture differs within docs/leaving_out.md's bounds
+};
+
 using Splat = passes::Splat;
 using PullPush = passes::PullPush;
 using VplSampling = passes::VplSampling;
@@ -168,8 +175,14 @@ struct Settings {
     int soft_shadow_size = 0;   // of the map at each; a cube's faces have half of it; 0: 512, imperfect: 128
     int convolution_order = 4;  // terms of the Fourier series, as in the paper
 
+    Forced forced = Forced::nothing;
+    bool frees_idle = false;  // textures are freed between passes: less memory, more time
+
     bool count_gathered_pixels = false;  // reads a counter back after the frame; costs a wait
-    bool measure_removed = false;        // reports the light that bounding takes away; costs a wait
+    // Searches what each pass writes for NaN and infinities, and fails the frame where it finds any, naming
+    // the first pass that left one; costs a read of everything written, and a wait.
+    bool check_finite = false;
+    bool measure_removed = false;  // reports the light that bounding takes away; costs a wait
     bool find_unlit =
         false;  // says where nothing is seen, and where nothing that reflects is lit; costs a wait
 

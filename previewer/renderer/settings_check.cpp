@@ -199,8 +199,8 @@ std::string limits_refusal(const Settings& settings, const gl::DeviceLimits& lim
                                                         setting, size, limits.texture_size)
                                           : std::string();
     };
-    std::string refusal;
-    if (settings.technique != Technique::direct) {
+    std::string refusal = too_large("the picture's longer side", std::max(settings.width, settings.height));
+    if (refusal.empty() && settings.technique != Technique::direct) {
         refusal = too_large("--rsm-size", settings.used_rsm_size());
     }
     if (refusal.empty()) {

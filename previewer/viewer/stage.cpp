@@ -13,6 +13,7 @@ Stage::Stage(scene::LoadResult loaded, const ChooseAnimation& choose_animation)
       animation_(choose_animation(loaded_.scene)),
       pose_(scene::evaluate_pose(loaded_.scene, 0.0, animation_)),
       renderer_(loaded_.scene) {
+    renderer_.expect_frames(true);
     std::copy_if(scene().topological_order.begin(), scene().topological_order.end(),
                  std::back_inserter(cameras_),
                  [&](int node) { return scene().nodes[static_cast<size_t>(node)].camera != scene::k_none; });

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "gl/debug_output.h"
+#include "renderer/auto_knobs.h"
 #include "renderer/settings_check.h"
 #include "viewer/display.h"
 #include "viewer/frame_clock.h"
@@ -51,7 +52,7 @@ class Viewer {
         if (const std::string refusal = limits_refusal(settings, device_.limits); !refusal.empty()) {
             throw usage_error(refusal);
         }
-        state_.settings = settings;
+        state_.settings = chosen_ = settings;
         playback_.seek(options.frame.value_or(playback_.frame()), seconds_now());
         if (!options.camera.empty()) {
             // Refuses a name that is not there with the sentence that bounce render has.
@@ -110,8 +111,13 @@ class Viewer {
         }
         const glm::ivec2 size = glm::max(room / state_.render_divisor, glm::ivec2(1));
         if (picture_changed_ || size != glm::ivec2(state_.settings.width, state_.settings.height)) {
+            const bool other_size =
+                options_.size_matters && size != glm::ivec2(state_.settings.width, state_.settings.height);
             state_.settings.width = size.x;
             state_.settings.height = size.y;
+            if (other_size) {
+                choose_again();
+            }
             render_picture();
             redraws_ = std::max(redraws_, 2);  // the panels tell about the picture one frame later
         }
@@ -146,6 +152,22 @@ class Viewer {
             free_camera().zoom(input.scrolled);
         }
         picture_changed_ |= drags || scrolls;
+    }
+
+    // Settings for this scene and size, as long as those that were chosen before are still in use: what the
+    // user has changed stays.
+    void choose_again() {
+        if (!same_knobs(state_.settings, chosen_)) {
+            return;
+        }
+        try {
+            chosen_ = options_.choose_settings(stage_->scene(),
+                                               glm::ivec2(state_.settings.width, state_.settings.height));
+        } catch (const Error& error) {
+            log::warning("settings stay as they are: {}", error.what());
+            return;
+        }
+        take_knobs(chosen_, state_.settings);
     }
 
     CameraControls& free_camera() {
@@ -259,7 +281,7 @@ class Viewer {
             refusal_ = error.what();  // settings that this scene and driver do not go with
             return;
         }
-        stage_->renderer().keep_history();
+        stage_->renderer().keep_frame();
         glFinish();
         frame_clock_.add((seconds_now() - start) * 1000.0);
     }
@@ -285,6 +307,7 @@ class Viewer {
             viewpoint_.move_to(*stage_, *stage);
             playback_.set_range(stage->scene().frames);
             stage_ = std::move(stage);
+            choose_again();
         } catch (const Error& error) {
             refuse_reloaded(error.what());
             return;
@@ -313,6 +336,7 @@ class Viewer {
     Viewpoint viewpoint_;
     Playback playback_;
     ViewState state_;
+    Settings chosen_;  // by the options
 
     Input input_;
     bool drag_is_panels_ = false;
@@ -334,7 +358,7 @@ void run_viewer(const ViewerOptions& options) {
     for (const std::string& warning : loaded.warnings) {
         log::warning("{}", warning);
     }
-    const Settings settings = options.choose_settings(loaded.scene);
+    const Settings settings = options.choose_settings(loaded.scene, std::nullopt);
     Viewer viewer(options, reloader, std::move(loaded), settings);
     viewer.run();
 }

@@ -26,17 +26,26 @@ vec3 render_from_light_vector(vec3 v) {
     return light.tangent.xyz * v.x + light.bitangent.xyz * v.y + light.axis.xyz * v.z;
 }
 
+// 1 less the cosine to the axis, with all its digits where that is narrow: a cone of a tenth of a degree has cosines of
+// a few steps of a float below 1.
+float versine_to_axis(vec3 direction) {
+    return direction.z > 0.0 ? dot(direction.xy, direction.xy) / (1.0 + direction.z) : 1.0 - direction.z;
+}
+
+// Share of a spot of Cycles within its cone and the soft rim.
+float within_cone(vec3 direction) {
+    float within = light.cone.x - versine_to_axis(direction);
+    float t = light.cone.y > 0.0 ? clamp(within * light.cone.y, 0.0, 1.0) : float(within > 0.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
 // Emission towards a unit direction of the light's frame, relative to the axis. Cycles' laws as measured
 // in docs/lights.md; Khronos' from KHR_lights_punctual.
 float light_profile(vec3 direction) {
 #if PROFILE == PROFILE_SPOT_CYCLES_3
-    float t = light.cone.y > 0.0 ? clamp((direction.z - light.cone.x) * light.cone.y, 0.0, 1.0)
-                                 : float(direction.z > light.cone.x);
-    return max(direction.z, 0.0) * t * t * (3.0 - 2.0 * t);
+    return max(direction.z, 0.0) * within_cone(direction);
 #elif PROFILE == PROFILE_SPOT_CYCLES_4
-    float t = light.cone.y > 0.0 ? clamp((direction.z - light.cone.x) * light.cone.y, 0.0, 1.0)
-                                 : float(direction.z > light.cone.x);
-    return t * t * (3.0 - 2.0 * t);
+    return within_cone(direction);
 #elif PROFILE == PROFILE_SPOT_KHRONOS
     float t = clamp(direction.z * light.cone.x + light.cone.y, 0.0, 1.0);
     return t * t;

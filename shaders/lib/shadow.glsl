@@ -68,6 +68,8 @@ MapPlane map_plane(vec3 p, vec3 n, int face, float lift) {
     vec3 up = cube_direction(face, vec2(0.0, 1.0)) - forward;
 #endif
     float height = dot(n, p);
+    // Not past the light, which may stand nearer to the plane than that.
+    lift = min(lift, 0.5 * abs(height));
     p -= (height < 0.0 ? -lift : lift) * n;
     float distance = max(dot(p, forward), 1e-30);
     height = dot(n, p);
@@ -82,11 +84,12 @@ MapPlane map_plane(vec3 p, vec3 n, int face, float lift) {
 
 // 1 where nothing in the map is nearer than the plane by more than `slack`, render units; at: in texels.
 float plane_lit(MapPlane plane, vec2 at, float slack, float size) {
-    ivec2 texel = clamp(ivec2(at), ivec2(0), ivec2(int(size) - 1));
+    ivec2 texel = ivec2(clamp(at, vec2(0.0), vec2(size - 1.0)));
     vec2 center = (vec2(texel) + 0.5) * (2.0 / size) - 1.0;
     // Depth is a rounded float: a few of its steps. Nothing lies before the map's near plane.
     float reference = dot(plane.gradient, vec3(center, 1.0)) * (1.0 + 4e-6) + plane.nearer * (slack + POSITION_ROUNDING);
-    reference = min(reference, 1.0);
+    // A ray that misses the plane, beyond its horizon, may go on for ever; only what it meets hides the light.
+    reference = clamp(reference, 0.0, 1.0);
     return reference >= texelFetch(shadow_texture, ivec3(texel, plane.face), 0).r ? 1.0 : 0.0;
 }
 

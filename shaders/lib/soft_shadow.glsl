@@ -21,7 +21,7 @@ float plane_lit_smooth(MapPlane plane, vec2 at, float slack, float size) {
     float here = dot(plane.gradient, vec3((corner + 0.5) * (2.0 / size) - 1.0, 1.0));
     // In the order of textureGather.
     vec4 reference = here + vec4(step_.y, step_.x + step_.y, step_.x, 0.0);
-    reference = min(reference * (1.0 + 4e-6) + plane.nearer * (slack + POSITION_ROUNDING), 1.0);
+    reference = clamp(reference * (1.0 + 4e-6) + plane.nearer * (slack + POSITION_ROUNDING), 0.0, 1.0);
     vec4 depth = textureGather(shadow_texture, vec3((corner + 1.0) / size, float(plane.face)));
     vec4 lit = vec4(greaterThanEqual(reference, depth));
     vec2 rows = mix(lit.wx, lit.zy, part.x);
@@ -75,7 +75,8 @@ vec2 view_share(GpuShadowView view, int index, SoftReceiver r) {
     plane.st /= depth;
 #endif
     texel *= depth;
-    height += (height < 0.0 ? 1.0 : -1.0) * CURVATURE_LIFT * texel;
+    // Not past the light, which may stand nearer to the plane than that.
+    height += (height < 0.0 ? 1.0 : -1.0) * min(CURVATURE_LIFT * texel, 0.5 * abs(height));
     float least = 1e-4 * depth;
     height = abs(height) < least ? (height < 0.0 ? -least : least) : height;
     plane.gradient = view.origin.w / height * along;

@@ -18,6 +18,9 @@ layout(binding = IMG_OUT, r16ui) writeonly uniform uimage2D sources_image;
 const float OWN_TOLERANCE = 0.05;
 // Another pixel must be nearer by this factor: where surfaces curve into a crease, planes of several come near by chance.
 const float NEARER_BY = 0.5;
+// Pixels of one plane come equally near up to rounding: of those the nearest to the sample. Widths off the plane that a
+// pixel of distance counts for.
+const float PER_PIXEL = 0.01;
 // A sample this far from every pixel's plane is part of something that no pixel's middle shows.
 const float LEAST_DISTANCE_OF_NONE = 1e20;
 
@@ -58,9 +61,9 @@ void main() {
     float worst = 0.0;
     for (int s = 0; s < AA_SAMPLES; ++s) {
         depths[s] = texelFetch(depth_samples, pixel, s).r;
-        nearest[s] = distance_off(own, depths[s], places[s]);
-        off_own[s] = nearest[s];
-        worst = max(worst, nearest[s]);
+        off_own[s] = distance_off(own, depths[s], places[s]);
+        nearest[s] = off_own[s] + PER_PIXEL * length(places[s]);
+        worst = max(worst, off_own[s]);
     }
     uint sources = ALL_SELF;
     if (worst > OWN_TOLERANCE) {
@@ -70,9 +73,11 @@ void main() {
             ivec2 other = clamp(pixel + offset, ivec2(0), frame.size.xy - 1);
             Plane plane = plane_of(other);
             for (int s = 0; s < AA_SAMPLES; ++s) {
-                float distance = distance_off(plane, depths[s], places[s] - vec2(other - pixel));
-                if (distance < nearest[s] && off_own[s] > OWN_TOLERANCE && distance < NEARER_BY * off_own[s]) {
-                    nearest[s] = distance;
+                vec2 at = places[s] - vec2(other - pixel);
+                float distance = distance_off(plane, depths[s], at);
+                float score = distance + PER_PIXEL * length(at);
+                if (score < nearest[s] && off_own[s] > OWN_TOLERANCE && distance < NEARER_BY * off_own[s]) {
+                    nearest[s] = score;
                     found[s] = k;
                 }
             }

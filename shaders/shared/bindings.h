@@ -51,6 +51,8 @@
 #define SSBO_PIECES_OUT 5
 #define SSBO_PIECE_COMMANDS 6
 #define SSBO_REUSE_COUNT 3
+#define SSBO_CHECKED 6
+#define SSBO_NOT_FINITE 7
 // The approximate visibility grid is filled from all of these at once ...
 #define SSBO_AVG_POSITIONS 2
 #define SSBO_AVG_INDICES 3
@@ -95,6 +97,8 @@
 #define TEX_PEELED_DEPTH 9
 #define TEX_HISTORY_NORMAL 8
 #define TEX_MOTION 9
+// Beyond those that passes leave bound for one another.
+#define TEX_CHECKED 16
 
 // Image units.
 #define IMG_OUT 0
@@ -126,6 +130,8 @@
 // screen is mostly one surface.
 #define GROUP_2D 8
 #define GROUP_1D 64
+// Rows of texels of each thread that searches a texture for what is not finite.
+#define CHECKED_ROWS 8
 // Groups along one axis of a dispatch at most, where they may be more than the 65,535 that OpenGL promises.
 #define MOST_GROUPS 32768
 // One group sums a row of a map, or scans all row sums.

@@ -74,7 +74,7 @@ struct GpuLight {
     vec4 tangent;           // xyz unit, map +s; w: half extent of an orthographic map
     vec4 bitangent;         // xyz unit, map +t; w: half extent of an orthographic map
     vec4 intensity;         // rgb: W/sr on the axis (sun: W/m^2), render-space units; w: squared radius
-    vec4 cone;              // spot: cos of the half angle, 1/(blend width in cos) or 0 for a hard edge,
+    vec4 cone;              // spot: 1 - cos of the half angle, 1/(blend width in cos) or 0 for a hard edge,
                             // khronos: scale and offset of its angular attenuation;
                             // z: 1 over how many places its bounced light starts from; w, sun: tan of half its angle
     vec4 area;              // half sizes in render space; tan and normalisation of the spread

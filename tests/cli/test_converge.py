@@ -83,7 +83,8 @@ def test_bad_targets(render, scene, target):
 
 def test_what_does_not_go_together(render, scene):
     refused(render(scene, "-o", "a.exr", "--passes", "4"), "--passes", "--converge")
-    refused(render(scene, "-o", "a.exr", "--target-relmse", "0.1"), "--target-relmse", "--converge")
+    refused(render(scene, "-o", "a.exr", "--target-relmse", "0.1", "--preset", "ism2008"), "--target-relmse", "--converge")
+    refused(render(scene, "-o", "a.exr", "--converge", "--budget-ms", "33"), "--budget-ms", "--time-limit")
     refused(render(scene, "-o", "a.exr", "--converge", "--samples", "4"), "--samples", "--converge")
     refused(render(scene, "-o", "a.exr", "--converge", "--technique", "rsm"), "--technique rsm", "--converge")
     refused(render(scene, "-o", "a.exr", "--converge", "--temporal-reuse", "on"), "--temporal-reuse", "--converge")

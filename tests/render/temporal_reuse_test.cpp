@@ -35,7 +35,7 @@ class TemporalReuse : public ::testing::Test {
             Rendered out;
             out.report = renderer_.render(pose, camera, s);
             out.image = renderer_.read_color();
-            renderer_.keep_history();
+            renderer_.keep_frame();
             return out;
         }
         Renderer& renderer() { return renderer_; }

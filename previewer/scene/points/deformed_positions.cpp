@@ -33,7 +33,8 @@ std::vector<glm::dvec3> deformed_positions(const Scene& scene, const Pose& pose,
                 sum += joints[primitive.joints[v][k]] * glm::dvec4(positions[v], 1.0) *
                        static_cast<double>(primitive.weights[v][k]);
             }
-            positions[v] = glm::dvec3(sum);
+            // Weights in floats sum up to 1 within a rounding, which far from the origin is a way to go.
+            positions[v] = glm::dvec3(sum) / (sum.w > 0.0 ? sum.w : 1.0);
         }
         return positions;
     }

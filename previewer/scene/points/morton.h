@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -17,6 +19,19 @@ inline uint32_t morton(const glm::uvec3& v) {
         }
     }
     return code;
+}
+
+// The code of a place in a box of 1021 cells a side. Borders of cells lie where no half, third or tenth of the
+// box does: what stands there by design has the same code however its numbers are rounded. Nor do roundings
+// across a flat box count.
+inline uint32_t morton_in_box(const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
+    const glm::dvec3 side = high - low;
+    const double longest = std::max({side.x, side.y, side.z});
+    if (!(longest > 0.0) || !std::isfinite(longest)) {
+        return 0;
+    }
+    const glm::dvec3 cells = 1021.37 / glm::max(side, glm::dvec3(1e-4 * longest));
+    return morton(glm::uvec3(glm::clamp((place - low) * cells + 0.618, 0.0, 1023.0)));
 }
 
 }  // namespace bounce::scene

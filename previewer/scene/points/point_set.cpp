@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
-#include "scene/points/morton.h"
 #include "scene/points/sobol.h"
 
 namespace bounce::scene {
@@ -35,6 +33,7 @@ double triangle_area_m2(const SurfacePart& part, const AreaTable& table, size_t 
 
 struct PlacedTriangle {
     double area_m2;
+    double rank;  // of its area, the same for triangles of one shape however their corners are rounded
     size_t part;
     size_t index;  // into the part's cover
 };
@@ -49,19 +48,19 @@ std::vector<PlacedTriangle> find_large(const SurfaceParts& parts, const std::vec
     }
     // Without the largest ones less is left, and a share of it is smaller.
     std::vector<PlacedTriangle> candidates;
+    const double all = left;
     const double least = left * k_large_points / static_cast<double>(points_a_map) / 16.0;
     for (size_t p = 0; p < parts.parts.size(); ++p) {
         const SurfacePart& part = parts.parts[p];
         for (size_t i = 0;
              use[p] && !part.cut_out && part.area_m2 >= least && i < part.cover->triangles.size(); ++i) {
             if (const double area = triangle_area_m2(part, *part.cover, i); area >= least) {
-                candidates.push_back({area, p, i});
+                candidates.push_back({area, std::floor(std::log2(area / all) * 4096.0 + 0.618), p, i});
             }
         }
     }
     std::sort(candidates.begin(), candidates.end(), [](const PlacedTriangle& a, const PlacedTriangle& b) {
-        return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2
-                                      : std::pair(a.part, a.index) < std::pair(b.part, b.index);
+        return a.rank != b.rank ? a.rank > b.rank : std::pair(a.part, a.index) < std::pair(b.part, b.index);
     });
     size_t count = 0;
     while (count < std::min(candidates.size(), k_most_large_triangles) &&
@@ -127,25 +126,11 @@ std::vector<Sampled> without(const SurfaceParts& parts, const std::vector<bool>&
     return out;
 }
 
-// All parts, along a curve through their centres, whatever the order of the scene's nodes.
 std::vector<Sampled> all_of(const SurfaceParts& parts) {
-    glm::dvec3 low(1e300);
-    glm::dvec3 high(-1e300);
-    for (const SurfacePart& part : parts.parts) {
-        low = glm::min(low, part.center_world);
-        high = glm::max(high, part.center_world);
-    }
-    const glm::dvec3 cells = 1023.0 / glm::max(high - low, glm::dvec3(1e-300));
     std::vector<Sampled> out;
     for (const SurfacePart& part : parts.parts) {
         out.push_back({&part, part.table.get(), {}, {}, part.area_m2, {}, part.area_m2});
     }
-    const auto key = [&](const Sampled& s) {
-        const glm::dvec3& c = s.part->center_world;
-        return std::tuple(morton(glm::uvec3((c - low) * cells)), c.x, c.y, c.z, s.area_m2);
-    };
-    std::stable_sort(out.begin(), out.end(),
-                     [&](const Sampled& a, const Sampled& b) { return key(a) < key(b); });
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include "scene/points/deformed_positions.h"
@@ -58,12 +59,11 @@ void sort_along_curve(const Positions& p, Triangles& triangles) {
         low = glm::min(low, position);
         high = glm::max(high, position);
     }
-    const glm::dvec3 cells = 1023.0 / glm::max(high - low, glm::dvec3(1e-300));
     std::vector<std::pair<uint32_t, uint32_t>> keyed;
     keyed.reserve(triangles.size());
     for (const glm::uvec3& t : triangles) {
         const glm::dvec3 center = (p[t.x] + p[t.y] + p[t.z]) / 3.0;
-        keyed.emplace_back(morton(glm::uvec3((center - low) * cells)), static_cast<uint32_t>(keyed.size()));
+        keyed.emplace_back(morton_in_box(center, low, high), static_cast<uint32_t>(keyed.size()));
     }
     std::sort(keyed.begin(), keyed.end());
     Triangles sorted;
@@ -94,11 +94,12 @@ AreaTable make_table(const Positions& p, Triangles triangles) {
 
 // Triangles of one primitive by the plane they lie in.
 std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive, const Positions& p) {
-    glm::dvec3 size(0.0);
+    Bounds box;  // which may lie far from the origin
     for (const glm::dvec3& position : p) {
-        size = glm::max(size, glm::abs(position));
+        box.grow(position);
     }
-    const double offset_step = std::max(glm::length(size), 1e-300) / k_offset_steps;
+    const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();
+    const double offset_step = std::max(0.5 * box.diagonal(), 1e-300) / k_offset_steps;
     std::map<std::array<int64_t, 4>, std::vector<uint32_t>> planes;
     const auto count = static_cast<uint32_t>(primitive.indices.size() / 3);
     for (uint32_t triangle = 0; triangle < count; ++triangle) {
@@ -109,7 +110,7 @@ std::vector<std::vector<uint32_t>> triangles_by_plane(const Primitive& primitive
             continue;  // a triangle without area is drawn nowhere and hides nothing
         }
         const glm::dvec3 normal = area / length;
-        const double offset = glm::dot(normal, p[corners.x]);
+        const double offset = glm::dot(normal, p[corners.x] - middle);
         planes[{std::llround(normal.x * k_normal_steps), std::llround(normal.y * k_normal_steps),
                 std::llround(normal.z * k_normal_steps), std::llround(offset / offset_step)}]
             .push_back(triangle);
@@ -191,6 +192,7 @@ class Cutter {
         for (size_t i = 0; i < out_.surfaces.size(); ++i) {
             add_parts(static_cast<uint32_t>(i));
         }
+        sort_parts();
         return std::move(out_);
     }
 
@@ -395,6 +397,36 @@ class Cutter {
             position = glm::dvec3(placement.world_from_model * glm::dvec4(position, 1.0));
         }
         add_tables(index, cut_primitive(primitive, world, 1.0, true), 1.0, glm::dmat4(1.0));
+    }
+
+    // Along a curve through their centres, the order that points are drawn in: near parts get near parts of a
+    // sequence, whatever the order of the scene's nodes, meshes and materials.
+    void sort_parts() {
+        glm::dvec3 low(1e300);
+        glm::dvec3 high(-1e300);
+        for (const SurfacePart& part : out_.parts) {
+            low = glm::min(low, part.center_world);
+            high = glm::max(high, part.center_world);
+        }
+        const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-300});
+        // Of parts in one cell: by their places to a millionth of the box, then by their areas.
+        const auto fine = [&](double place) { return std::floor(place / longest * 1e6 + 0.618); };
+        const auto key = [&](const SurfacePart& part) {
+            const glm::dvec3 place = part.center_world - low;
+            return std::tuple(morton_in_box(part.center_world, low, high), fine(place.x), fine(place.y),
+                              fine(place.z), std::floor(std::log2(part.area_m2 / total_) * 64.0 + 0.618));
+        };
+        std::vector<std::pair<decltype(key(out_.parts.front())), size_t>> order;
+        for (size_t i = 0; i < out_.parts.size(); ++i) {
+            order.emplace_back(key(out_.parts[i]), i);
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<SurfacePart> sorted;
+        sorted.reserve(order.size());
+        for (const auto& [place, i] : order) {
+            sorted.push_back(std::move(out_.parts[i]));
+        }
+        out_.parts = std::move(sorted);
     }
 
     const Scene& scene_;

@@ -49,7 +49,7 @@ struct SurfacePart {
 
 struct SurfaceParts {
     std::vector<PointSurface> surfaces;
-    std::vector<SurfacePart> parts;
+    std::vector<SurfacePart> parts;  // along a curve through their centres
     double box_surface_m2 = 0.0;  // of the box around all that is drawn at any of the moments sampled
     [[nodiscard]] double area_m2() const;
 };

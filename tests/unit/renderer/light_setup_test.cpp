@@ -212,7 +212,7 @@ TEST(LightSetup, ConeValuesOfBlendersSpot) {
     spot.blend = 0.25F;
     const LightSetup soft = set_up(spot);
     EXPECT_EQ(soft.profile, PROFILE_SPOT_CYCLES_3);
-    EXPECT_NEAR(soft.gpu.cone.x, std::cos(0.5), 1e-6);
+    EXPECT_NEAR(soft.gpu.cone.x, 1.0 - std::cos(0.5), 1e-6);
     EXPECT_NEAR(soft.gpu.cone.y, 1.0 / ((1.0 - std::cos(0.5)) * 0.25), 1e-4);
     spot.blend = 0.0F;
     EXPECT_EQ(set_up(spot).gpu.cone.y, 0.0F) << "a hard edge";

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/info_plan.h"
+
+#include <fmt/format.h>
+
+#include "gl/context.h"
+
+namespace bounce::cli {
+namespace {
+
+constexpr double k_mebibyte = 1024.0 * 1024.0;
+
+double mebibytes(size_t bytes) {
+    return static_cast<double>(bytes) / k_mebibyte;
+}
+
+}  // namespace
+
+InfoPlan info_plan(const scene::Scene& scene, const RenderOptions& options) {
+    options.check();
+    InfoPlan out;
+    out.settings = options.settings(scene);
+    out.frame = scene.frames.start;
+    const gl::HeadlessContext context;
+    const gl::DeviceInfo device = gl::initialise_current_context();
+    require_within(device.limits, out.settings);
+    Renderer renderer(scene);
+    const scene::Pose pose = scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, out.frame),
+                                                  options.animation_index(scene));
+    const CameraView camera =
+        scene_camera(scene, pose, options.camera, out.settings.width, out.settings.height);
+    out.report = renderer.plan(pose, camera, out.settings);
+    return out;
+}
+
+nlohmann::json plan_json(const InfoPlan& plan) {
+    const FrameReport::Memory memory = plan.report.memory.value();
+    nlohmann::json out = {{"frame", plan.frame},
+                          {"width", plan.settings.width},
+                          {"height", plan.settings.height},
+                          {"passes", plan.report.executed},
+                          {"left_out", nlohmann::json::array()},
+                          {"approximations", plan.report.approximations},
+                          {"memory",
+                           {{"lasting_bytes", memory.lasting},
+                            {"passes_bytes", memory.passes},
+                            {"peak_bytes", memory.peak()}}}};
+    for (const LeftOut& item : plan.report.left_out) {
+        out["left_out"].push_back({{"pass", item.pass}, {"reason", item.reason}});
+    }
+    return out;
+}
+
+void print_plan(const InfoPlan& plan) {
+    const FrameReport::Memory memory = plan.report.memory.value();
+    fmt::print("plan        frame {}, {} x {} pixels, {} passes\n", plan.frame, plan.settings.width,
+               plan.settings.height, plan.report.executed.size());
+    for (const std::string& pass : plan.report.executed) {
+        fmt::print("  {}\n", pass);
+    }
+    fmt::print("left out    {}\n", plan.report.left_out.size());
+    for (const LeftOut& item : plan.report.left_out) {
+        fmt::print("  {:<32} {}\n", item.pass, item.reason);
+    }
+    fmt::print(
+        "GPU memory  {:.1f} MiB at most: {:.1f} of the scene and what lasts, {:.1f} of the frame's passes\n",
+        mebibytes(memory.peak()), mebibytes(memory.lasting), mebibytes(memory.passes));
+}
+
+}  // namespace bounce::cli
