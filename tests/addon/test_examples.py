@@ -83,6 +83,28 @@ def test_example_told_in_other_numbers_has_the_same_picture(example, tmp_path):
     assert len(table["rows"]) == 4  # two changes, two settings
 
 
+@pytest.mark.skipif("BOUNCE_BINARY" not in os.environ, reason="BOUNCE_BINARY does not say where the program is")
+def test_example_runs_the_passes_that_it_needs(example, tmp_path):
+    """Of a frame by itself, and of the third of an animation, which has what did not change since the second."""
+    name, gltf = example
+    expected = json.loads((ROOT / "tests/data/example_passes.json").read_text())[name]
+    program = os.environ["BOUNCE_BINARY"]
+    done = subprocess.run([program, "info", gltf.path, "--plan", "--json", "--size", "160x90"], capture_output=True,
+                          text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    plan = json.loads(done.stdout)["plan"]
+    assert plan["passes"] == expected["first"]
+    assert all(item["pass"] and item["reason"] for item in plan["left_out"])
+    done = subprocess.run([program, "render", gltf.path, "-o", tmp_path / "a.####.exr", "--frames", "1-3", "--size", "64x36",
+                           "--no-pass-times", "--stats", tmp_path / "stats.json"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    stats = json.loads((tmp_path / "stats.json").read_text())
+    assert stats["frames"][2]["executed"] == expected["third"]
+    unchanged = {item["pass"] for item in stats["left_out"] if item["reason"] == "what it makes is as in the frame before"}
+    missing = set(expected["first"]) - set(expected["third"])
+    assert missing - {"points"} <= unchanged | {"deform"}
+
+
 def test_example_without_a_target_is_bad_usage(blender):
     done = blender("-P", ROOT / "examples/cornell.py", check=False)
     assert done.returncode == 2 and "OUT.blend" in done.stderr
