@@ -5,6 +5,7 @@
 """
 
 import argparse
+import json
 import sys
 import traceback
 from pathlib import Path
@@ -29,6 +30,10 @@ def parse(arguments):
                             metavar="N", help="quantisation, 0 for none (default %(default)s)")
     parser.add_argument("--no-animation", dest="animation", action="store_false",
                         help="write the first frame alone")
+    parser.add_argument("--keep-all", action="store_true",
+                        help="write what nothing reads and what is there twice as well, for comparison")
+    parser.add_argument("--verbose", action="store_true", help="list what is left out, and why")
+    parser.add_argument("--report", metavar="FILE.json", help="write what is left out and what cannot be represented")
     return parser.parse_args(arguments)
 
 
@@ -56,9 +61,12 @@ def main():
     if not bpy.data.filepath:
         # Blender's default scene is nobody's.
         raise ExportError("no .blend file is open; was it found and could this Blender read it?")
-    output = arguments.pop("output")
-    for line in export(output, Options(**arguments)).lines():
+    output, verbose, listing = (arguments.pop(name) for name in ("output", "verbose", "report"))
+    report = export(output, Options(**arguments))
+    for line in report.lines(verbose):
         print(f"bounce: {line}")
+    if listing is not None:
+        Path(listing).write_text(json.dumps(report.as_json(), indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

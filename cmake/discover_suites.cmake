@@ -8,7 +8,7 @@ foreach(line ${lines})
   if(line MATCHES "^([A-Za-z0-9_/]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
     string(APPEND text "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-      "set_tests_properties([=[${suite}]=] PROPERTIES LABELS [=[${LABELS}]=] TIMEOUT 300 WORKING_DIRECTORY [=[${FOLDER}]=])\n")
+      "set_tests_properties([=[${suite}]=] PROPERTIES LABELS [=[${LABELS}]=] TIMEOUT 600 WORKING_DIRECTORY [=[${FOLDER}]=])\n")
   endif()
 endforeach()
 if(text STREQUAL "")

@@ -14,10 +14,12 @@ class ExportContext:
         self.prepared = prepared
         self.unsupported = unsupported
         self.failure = None
+        self.left_out = [*prepared.left_out]  # (name, what, reason)
         # Filled by the hooks.
         self.light_nodes = {}  # light pointer -> [(light, gltf node)]
         self.cameras = {}  # camera pointer -> (camera, gltf camera)
         self.materials = {}  # material pointer -> [gltf material]
+        self.default_material = None  # of primitives without one
         self.world_image = None  # as in the document
         self.kept_in_order = []  # names of compressed meshes whose vertices stay in order for their shape keys
 

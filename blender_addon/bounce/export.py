@@ -10,7 +10,9 @@ from pathlib import Path
 
 import bpy
 
-from . import blender_gltf, context, deformation, draco_library, geometry, materials, sampling, surrogates, survey
+from . import (
+    blender_gltf, context, deformation, draco_library, geometry, materials, omissions, sampling, surrogates, survey,
+)
 from .edits import Edits
 from .errors import ExportError
 from .visibility import Visibility, animated_paths, evaluate_as_render
@@ -26,12 +28,23 @@ class Report:
     draco: str = None  # the library used, None where the file is not compressed
     notes: list = field(default_factory=list)
     unsupported: list = field(default_factory=list)
+    left_out: list = field(default_factory=list)  # (name, what, reason)
 
-    def lines(self):
+    def lines(self, verbose=False):
         yield f"{self.path.name}: {self.bytes_written} bytes in {self.seconds:.1f} s"
         yield from self.notes
         for name, what in self.unsupported:
             yield f"not represented: {name}: {what}"
+        if verbose:
+            for name, what, reason in self.left_out:
+                yield f"left out: {name}: {what}: {reason}"
+
+    def as_json(self):
+        return {
+            "file": self.path.name, "bytes": self.bytes_written,
+            "left_out": [dict(zip(("name", "what", "reason"), entry)) for entry in self.left_out],
+            "unsupported": [{"object": name, "what": what} for name, what in self.unsupported],
+        }
 
 
 def export(path, options):
@@ -63,7 +76,7 @@ def export(path, options):
         notes.append("vertex order kept, so compressed less, for shape keys of: "
                      + ", ".join(dict.fromkeys(current.kept_in_order)))
     return Report(path, path.stat().st_size, time.monotonic() - began, str(library) if library else None, notes,
-                  list(dict.fromkeys(current.unsupported)))
+                  list(dict.fromkeys(current.unsupported)), list(dict.fromkeys(current.left_out)))
 
 
 def _leave_edit_mode():
@@ -103,7 +116,7 @@ def _prepare(scene, view_layer, options, edits):
         return [models[slot.material.as_pointer()][1] for slot in obj.material_slots
                 if slot.material is not None and slot.material.as_pointer() in models]
 
-    prepared = geometry.prepare(scene, visibility, models_of, edits)
+    prepared = geometry.prepare(scene, visibility, models_of, edits, options.keep_all)
     unsupported.extend(prepared.issues)
     used = {slot.material.as_pointer() for obj in shown for slot in obj.material_slots if slot.material is not None}
     for key, (material, model) in models.items():
@@ -112,6 +125,7 @@ def _prepare(scene, view_layer, options, edits):
             owner = next(obj for obj in shown if any(s.material == material for s in obj.material_slots))
             unsupported.extend((owner.name, f"material '{material.name}': {what}") for what in
                                [*model.issues, *_unexported_motion(material, model)])
+    prepared.left_out.extend(omissions.unused_data(used, models, scene))
     return context.ExportContext(scene, options, visibility, models, samples, prepared, unsupported)
 
 
@@ -147,8 +161,8 @@ def _as_export_error(failure):
 def _write(path, options, library, current):
     """The exporter writes into a folder of its own beside the target; what it wrote then moves over in one step a
     file, the one that names the others last."""
-    used_images = any(model.uv_maps for _, model in current.models.values())
-    normal_maps = any(model.normal_map for _, model in current.models.values())
+    used_images = options.keep_all or any(model.uv_maps for _, model in current.models.values())
+    normal_maps = options.keep_all or any(model.normal_map for _, model in current.models.values())
     # The exporter caches by the identity of these wrappers; they must not be freed and reused meanwhile.
     kept_alive = [*bpy.data.meshes, *bpy.data.materials, *bpy.data.cameras, *bpy.data.lights, *bpy.data.objects]
     folder = Path(tempfile.mkdtemp(prefix=f".{path.stem}.", dir=path.parent))

@@ -20,9 +20,10 @@ class Prepared:
         self.native = set()  # pointers of curves that Blender's exporter converts by itself
         self.names = {}  # pointer of a made mesh -> name to export
         self.issues = []  # (object name, words)
+        self.left_out = []  # (object name, what, reason)
 
 
-def prepare(scene, visibility, models_of, edits):
+def prepare(scene, visibility, models_of, edits, keep_all=False):
     """`models_of(obj)` are the material models of an object's slots. The scene stands at the first frame."""
     prepared = Prepared()
     objects = list(visibility.objects.values())
@@ -37,7 +38,7 @@ def prepare(scene, visibility, models_of, edits):
     swaps, shared = [], {}
     for obj in objects:
         if obj.type == "MESH":
-            mesh = _own_mesh(obj, models_of(obj), shared, prepared)
+            mesh = _own_mesh(obj, models_of(obj), shared, prepared, keep_all)
             if mesh is not None:
                 swaps.append((obj, mesh))
         elif obj.type in CONVERTED_TYPES:
@@ -57,22 +58,25 @@ def _shaping_modifiers(obj):
     return [m for m in obj.modifiers if m.show_viewport and m.type not in {"ARMATURE", "PARTICLE_SYSTEM", "COLLISION"}]
 
 
-def _own_mesh(obj, models, shared, prepared):
+def _own_mesh(obj, models, shared, prepared, keep_all):
     """A mesh of its own for this object, or None where the one it has serves."""
     keys = shape_keys_of(obj)
     layers = _Layers(obj.data, models)
     masked = any(key.vertex_group for key in keys)
     if _shaping_modifiers(obj) or masked:
         mesh = _evaluate_keyed(obj, keys, prepared) if keys else _evaluate(obj)
-    elif layers.superfluous():
+    elif layers.superfluous() and not keep_all:
         key = (obj.data.as_pointer(), layers.kept_uvs, layers.color)
         if key in shared:
+            prepared.left_out.extend((obj.name, what, "no material of it reads it") for what in layers.stripped)
             return shared[key]
         mesh = shared[key] = obj.data.copy()
     else:
         return None
     prepared.names[mesh.as_pointer()] = obj.data.name
-    layers.strip(mesh)
+    if not keep_all:
+        layers.strip(mesh)
+        prepared.left_out.extend((obj.name, what, "no material of it reads it") for what in layers.stripped)
     return mesh
 
 
@@ -90,6 +94,9 @@ class _Layers:
         colors = [model.color_attribute for model in models if model.color_attribute is not None]
         self.color = colors[0] if colors else None
         self._mesh_has_colors = len(mesh.color_attributes) > 0
+        self.stripped = [f"UV map '{name}'" for name in names[self.kept_uvs:]]
+        if self.color is None:
+            self.stripped += [f"colour attribute '{layer.name}'" for layer in mesh.color_attributes]
 
     def superfluous(self):
         return self._has_more_uvs or (self._mesh_has_colors and self.color != "")

@@ -9,6 +9,7 @@ from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
 from . import materials, textures
 from .animation import Channel
+from .duplicates import texture_infos
 from .pointers import Pointer
 from .tracks import is_constant
 
@@ -84,12 +85,11 @@ def set_encoding(texture_info, shader_sockets):
 
 
 def finish_primitives(mesh, blender_materials, export):
-    default = None
     for primitive in mesh.primitives:
         if primitive.material is None:
-            default = default or _default_material()
-            primitive.material = default
-        _drop_unused_attributes(primitive, export)
+            export.default_material = export.default_material or _default_material()
+            primitive.material = export.default_material
+        _drop_unused_attributes(mesh.name, primitive, export)
 
 
 def _default_material():
@@ -104,20 +104,35 @@ def _default_material():
     )
 
 
-def _drop_unused_attributes(primitive, export):
+def _drop_unused_attributes(name_of_mesh, primitive, export):
     model = _model_of(primitive.material, export)
     unused = set()
     if model is None or model.color_attribute is None:
         unused.add("COLOR_0")
-    if model is None or not model.normal_map:
+    # Unlike a colour, which glTF multiplies into the material whether that says so or not, it changes nothing.
+    if (model is None or not model.normal_map) and not export.options.keep_all:
         unused.add("TANGENT")
-    if not unused & set(primitive.attributes):
+    if not export.options.keep_all:
+        unused.update(_texcoords_behind_the_last_used(primitive))
+    unused &= set(primitive.attributes)
+    if not unused:
         return
+    words = {"TANGENT": ("tangents", "its material has no normal map"),
+             "COLOR_0": ("vertex colours", "its material does not read them, and glTF would tint by them")}
+    for name in sorted(unused):
+        what, reason = words.get(name, ("texture coordinates", "its material has no image at them"))
+        export.left_out.append((name_of_mesh, what, reason))
     # Accessors are shared with primitives of other materials, whose compressed vertices may be others.
     primitive.attributes = {
         name: copy.copy(accessor) for name, accessor in primitive.attributes.items() if name not in unused
     }
     primitive.indices = copy.copy(primitive.indices)
+
+
+def _texcoords_behind_the_last_used(primitive):
+    """Of a mesh of several materials, those that another one reads. glTF numbers them without gaps."""
+    used = max((info.tex_coord or 0 for info in texture_infos([primitive.material])), default=-1)
+    return {name for name in primitive.attributes if name.startswith("TEXCOORD_") and int(name[9:]) > used}
 
 
 def _model_of(gltf_material, export):

@@ -4,7 +4,9 @@ export.py turns it into a failed export."""
 
 import functools
 
-from . import animation, context, document, gltf_materials, lights, read_scene, transforms, tree_filter
+from . import (
+    animation, context, document, duplicates, gltf_materials, lights, omissions, read_scene, transforms, tree_filter,
+)
 from .animation import Channel
 from .pointers import Pointer
 from .stepping import is_stepped, object_is_stepped
@@ -88,7 +90,11 @@ class glTF2ExportUserExtension:
                 document.set_static(vnode.node, placement)
                 step = vnode.blender_bone is None and object_is_stepped(vnode.blender_object)
                 channels.extend(animation.node_channels(vnode.node, placement, step))
+                if export.source_of(vnode.blender_object) in export.visibility.objects and vnode.blender_bone is None:
+                    omissions.note_still(export, vnode, channels)
         channels.extend(self._weights(export, vtree))
+        if not export.options.keep_all:
+            export.left_out.extend(duplicates.share(scenes, export.materials.values()))
         channels.extend(self._visibility(export, vtree))
         channels.extend(_pointer_channels(export))
         if len(export.samples.frames) > 1:

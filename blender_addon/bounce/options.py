@@ -22,3 +22,4 @@ class Options:
     color_bits: int = COLOR_BITS
     generic_bits: int = GENERIC_BITS
     animation: bool = True
+    keep_all: bool = False  # what changes no picture travels as well, for comparison

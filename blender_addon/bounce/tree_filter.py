@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decides which nodes of the exporter's tree are written: what the render shows and what moves it, nothing else."""
 
+import numpy as np
+
 from . import read_lights
 
 # Types that hiding in renders makes vanish. An armature or an empty shows nothing either way.
@@ -25,6 +27,7 @@ def tag(vtree, export):
     _detach_children_of_blinking(vtree, export)
     for root in list(vtree.roots):
         _tag(root, vtree, export, used_armatures)
+    export.left_out.extend(_reasons(vtree, export))
 
 
 def _tag(uuid, vtree, export, used_armatures):
@@ -35,11 +38,13 @@ def _tag(uuid, vtree, export, used_armatures):
     vnode = vtree.nodes[uuid]
     children_kept = [_tag(child, vtree, export, used_armatures) for child in vnode.children]
     if vnode.blender_bone is not None:
-        keep = vnode.armature in used_armatures or any(children_kept)
+        keep = vnode.armature in used_armatures or any(children_kept) or export.options.keep_all
     else:
         shown = _is_shown(vnode, vtree, export) and _shows_something(vnode, export)
         carries = vnode.blender_object.type in _CARRYING and any(children_kept)
         keep = shown or carries or uuid in used_armatures
+        if export.options.keep_all:
+            keep = keep or vnode.blender_object.type in _CARRYING
     vnode.keep_tag = keep
     return keep or any(children_kept)
 
@@ -64,8 +69,37 @@ def _shows_something(vnode, export):
     if obj.type == "MESH":
         return len(obj.data.polygons) > 0
     if obj.type == "LIGHT":
-        return not read_lights.is_portal(obj.data)
+        return not read_lights.is_portal(obj.data) and (export.options.keep_all or not _is_dark(obj.data, export))
     return obj.type == "CAMERA" or obj.as_pointer() in export.prepared.native
+
+
+def _is_dark(light, export):
+    """Whether a light gives nothing in any frame."""
+    values = export.samples.values["light", light.as_pointer()]
+    return any(name in values and not np.any(values[name]) for name in ("power_w", "irradiance_w_m2", "color"))
+
+
+def _reasons(vtree, export):
+    """Of every object that no node stands for, why."""
+    kept, left = set(), {}
+    for vnode in vtree.nodes.values():
+        obj = vnode.blender_object
+        if vnode.blender_bone is not None or obj.as_pointer() in export.prepared.replaced:
+            continue
+        if vnode.keep_tag:
+            kept.add(obj.name)
+        elif obj.type in _CARRYING:
+            left[obj.name] = (f"{obj.type.lower()}", "it shows nothing and carries nothing that is shown")
+        elif not _is_shown(vnode, vtree, export):
+            left[obj.name] = (obj.type.lower(), "renders do not show it in any frame")
+        elif obj.type == "LIGHT":
+            left[obj.name] = ("light", "a portal is no light of its own" if read_lights.is_portal(obj.data)
+                              else "it has no power in any frame")
+        elif obj.type == "MESH":
+            left[obj.name] = ("mesh", "it has no faces")
+        else:
+            left[obj.name] = (obj.type.lower(), "it has no faces or no words in the file")
+    return [(name, *why) for name, why in left.items() if name not in kept]
 
 
 def _instancer(vnode, vtree):

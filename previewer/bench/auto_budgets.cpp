@@ -223,11 +223,12 @@ Verdict judge(const std::vector<Contestant>& all, double budget_ms) {
     if (!fits(*own)) {
         return {fmt::format("auto does not keep to it; {} is best", best->name), false};
     }
-    if (best == own) {
+    if (own->error.relmse <= best->error.relmse) {
         return {"auto is best", true};
     }
-    const double ratio = own->error.relmse / best->error.relmse;
-    return {fmt::format("{} is best; auto has {:.3g} times its error", best->name, ratio), ratio <= k_near};
+    return {fmt::format("{} is best; auto has {:.3g} times its error", best->name,
+                        own->error.relmse / best->error.relmse),
+            own->error.relmse <= k_near * best->error.relmse};
 }
 
 std::vector<Size> sizes_of(const BenchOptions& options) {

@@ -107,7 +107,8 @@ const std::vector<Experiment>& experiments() {
          "mean radiance of closed white rooms by albedo, bounces and their source, against the exact one",
          measure_furnace},
         {"invariance", "Pictures of scenes told in other numbers",
-         "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes make",
+         "difference that scaling, moving, turning, relighting, splitting, merging and reordering scenes "
+         "make",
          measure_invariance, true},
         {"auto", "Preset auto within a time a frame",
          "time and error of preset auto within --budgets against every other preset's; takes many scenes",

@@ -35,12 +35,13 @@ struct BenchOptions {
     std::optional<double> longest_s;
     // avg-: screens are the paper's over this; on a software driver half as wide and high by default.
     std::optional<int> screen_divisor;
+    std::vector<std::string> changes;  // invariance: only these; all where there are none
     // auto: times a frame, and the picture's size for each, or for all.
     std::vector<double> budgets_ms{33.0, 100.0, 250.0};
     std::vector<std::pair<int, int>> sizes;
     std::string
-        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
-    std::string only;        // stress: cases whose names hold this
+        references;    // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;  // stress: cases whose names hold this
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };

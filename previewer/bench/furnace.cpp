@@ -12,20 +12,21 @@
 namespace bounce::bench {
 namespace {
 
-// The mean of all views may be this far from the exact one.
-constexpr double k_bound = 0.01;
-
+// What further bounces are drawn from, and how far the mean of all views may be from the exact one;
+// docs/invariance.md says why.
 struct Source {
     std::string name;
     BounceSource source;
+    double bound;
 };
-const std::vector<Source> k_sources = {
-    {"points", BounceSource::points}, {"irsm", BounceSource::irsm}, {"avg", BounceSource::avg}};
+const std::vector<Source> k_sources = {{"points", BounceSource::points, 0.01},
+                                       {"irsm", BounceSource::irsm, 0.10},
+                                       {"avg", BounceSource::avg, 0.10}};
 
 struct Measured {
     double mean = 0.0;
-    double spread = 0.0;  // standard deviation of a pixel over the mean
-    double removed = 0.0;
+    double spread = 0.0;   // standard deviation of a pixel over the mean
+    double removed = 0.0;  // radiance that the frames report to have been taken by bounding kernels
     size_t not_finite = 0;
 };
 
@@ -35,9 +36,11 @@ Measured measure(const BenchInputs& inputs, Renderer& renderer, const scene::Pos
     double squares = 0.0;
     double count = 0.0;
     Measured out;
-    for (const CameraView& camera : furnace_cameras(shape)) {
+    const std::vector<CameraView> cameras = furnace_cameras(shape);
+    for (const CameraView& camera : cameras) {
         inputs.interrupts.throw_if_interrupted("nothing is written");
-        renderer.render(pose, camera, settings);
+        const FrameReport report = renderer.render(pose, camera, settings);
+        out.removed += report.removed ? report.removed->removed / static_cast<double>(cameras.size()) : 0.0;
         const Image image = renderer.read_color();
         for (const float value : image.rgb) {
             out.not_finite += std::isfinite(value) ? 0 : 1;
@@ -55,15 +58,16 @@ Measured measure(const BenchInputs& inputs, Renderer& renderer, const scene::Pos
 
 void measure_furnace(const BenchInputs& inputs, BenchReport& report) {
     Settings settings = inputs.settings();
-    const int side = inputs.options.width.value_or(inputs.options.quick ? 16 : 64);
+    const int side = inputs.options.width.value_or(inputs.options.quick ? 16 : 32);
     settings.width = settings.height = side;
+    settings.measure_removed = true;
     settings.vpls = inputs.options.vpls.value_or(1024);
     settings.bounce_vpls = settings.emitter_vpls = settings.vpls;
     change_setting(report, "size", fmt::format("{0}x{0}, six views", side));
     change_setting(report, "VPLs", fmt::format("{}, as many of each further bounce", settings.vpls));
     change_setting(report, "bounces", "varied");
 
-    const std::vector<float> albedos = inputs.values<float>({0.5F, 0.2F, 0.8F, 0.95F, 0.99F});
+    const std::vector<float> albedos = inputs.values<float>({0.5F, 0.99F, 0.2F, 0.8F, 0.95F});
     const std::vector<int> bounces = inputs.values<int>({1, 2, 3, 4});
     const std::vector<FurnaceShape> shapes = {FurnaceShape::cube, FurnaceShape::sphere};
     const std::vector<FurnaceLight> lights = {FurnaceLight::emission, FurnaceLight::point};
@@ -71,8 +75,8 @@ void measure_furnace(const BenchInputs& inputs, BenchReport& report) {
                                                         k_sources.size() * bounces.size()));
     Table table{.title = "Mean radiance of the walls of closed rooms",
                 .note =
-                    "spread: of single pixels, standard deviation over the mean; 0 is exact where all walls "
-                    "emit, and after the light's own in a sphere",
+                    "removed: what the frame itself says that bounding the lights' kernels takes; spread: "
+                    "of single pixels, standard deviation over the mean",
                 .columns = {{"room", ""},
                             {"light", ""},
                             {"albedo", ""},
@@ -81,6 +85,7 @@ void measure_furnace(const BenchInputs& inputs, BenchReport& report) {
                             {"expected", "W/(m2 sr)"},
                             {"got", "W/(m2 sr)"},
                             {"deviation", "%"},
+                            {"removed", "%"},
                             {"spread", "%"},
                             {"not finite", ""},
                             {"held", ""}},
@@ -99,14 +104,15 @@ void measure_furnace(const BenchInputs& inputs, BenchReport& report) {
                         const Measured got = measure(inputs, renderer, pose, shape, settings);
                         const double expected = furnace_radiance(furnace, count);
                         const double deviation = got.mean / expected - 1.0;
-                        const bool held = got.not_finite == 0 && std::abs(deviation) <= k_bound;
+                        const bool held = got.not_finite == 0 && std::abs(deviation) <= source.bound;
                         report.bounds_broken += held ? 0 : 1;
                         table.rows.push_back({shape == FurnaceShape::cube ? "cube" : "sphere",
                                               light == FurnaceLight::emission ? "emission" : "point",
-                                              static_cast<double>(std::round(albedo * 1e4F) / 1e4F),
+                                              static_cast<double>(std::round(albedo * 1e4F)) / 1e4,
                                               source.name, static_cast<double>(count), expected, got.mean,
-                                              100.0 * deviation, 100.0 * got.spread,
-                                              static_cast<double>(got.not_finite), held ? "yes" : "NO"});
+                                              100.0 * deviation, 100.0 * got.removed / expected,
+                                              100.0 * got.spread, static_cast<double>(got.not_finite),
+                                              held ? "yes" : "NO"});
                         progress.step(fmt::format("albedo {:.2g}, {}, {} bounces: {:+.2f} %", albedo,
                                                   source.name, count, 100.0 * deviation));
                     }

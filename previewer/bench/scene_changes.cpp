@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "image/metrics.h"
 #include "scene/rearranged.h"
 #include "scene/transformed.h"
@@ -12,12 +14,13 @@
 namespace bounce::bench {
 namespace {
 
-SceneChange scaling(const char* name, double factor) {
-    return {name, [factor](const scene::Scene& scene) { return scene::scaled(scene, factor); }};
+SceneChange scaling(const char* name, double factor, Allowed allowed = Allowed::rounding) {
+    return {name, [factor](const scene::Scene& scene) { return scene::scaled(scene, factor); }, 1.0, allowed};
 }
 
 SceneChange lighting(const char* name, double factor) {
-    return {name, [factor](const scene::Scene& scene) { return scene::relit(scene, factor); }, factor};
+    return {name, [factor](const scene::Scene& scene) { return scene::relit(scene, factor); }, factor,
+            Allowed::halves};
 }
 
 SceneChange turning(const char* name, double degrees, const glm::dvec3& axis, Allowed allowed) {
@@ -35,30 +38,36 @@ const std::vector<SceneChange>& scene_changes() {
         scaling("scale 1e-3", 1e-3),
         scaling("scale 1e3", 1e3),
         scaling("scale 1e5", 1e5),
-        scaling("scale 2^20", 0x1p20),
+        scaling("scale 2^20", 0x1p20, Allowed::nothing),
         {"move 1e6",
          [](const scene::Scene& scene) {
              return scene::moved(scene, {1e6, -1e6, 1e6});
-         }},
+         },
+         1.0, Allowed::rounding},
         lighting("light 1e-6", 1e-6),
         lighting("light 1e6", 1e6),
-        turning("turn 90, up", 90.0, {0.0, 1.0, 0.0}, Allowed::rounding),
+        turning("turn 90, up", 90.0, {0.0, 1.0, 0.0}, Allowed::sampling),
         turning("turn 37, up", 37.0, {0.0, 1.0, 0.0}, Allowed::sampling),
         turning("turn 50, slanted", 50.0, {1.0, 2.0, -3.0}, Allowed::sampling),
-        {"split meshes", [](const scene::Scene& scene) { return scene::with_meshes_split(scene); }},
-        {"merge meshes", [](const scene::Scene& scene) { return scene::with_meshes_merged(scene); }},
-        {"reorder", [](const scene::Scene& scene) { return scene::reordered(scene); }},
+        {"split meshes", [](const scene::Scene& scene) { return scene::with_meshes_split(scene); }, 1.0,
+         Allowed::sampling},
+        {"merge meshes", [](const scene::Scene& scene) { return scene::with_meshes_merged(scene); }, 1.0,
+         Allowed::sampling},
+        {"reorder", [](const scene::Scene& scene) { return scene::reordered(scene); }, 1.0,
+         Allowed::rounding},
     };
     return all;
 }
 
 const SceneChange& scene_change(const std::string& name) {
+    std::string known;
     for (const SceneChange& change : scene_changes()) {
         if (change.name == name) {
             return change;
         }
+        known += fmt::format("{}'{}'", known.empty() ? "" : ", ", change.name);
     }
-    throw std::out_of_range("no scene change is named " + name);
+    throw usage_error(fmt::format("there is no change '{}'; there are {}", name, known));
 }
 
 Difference difference(const Image& test, const Image& reference, double light) {
@@ -93,9 +102,28 @@ Difference difference(const Image& test, const Image& reference, double light) {
     return out;
 }
 
-double relmse_bound(Allowed allowed, double own_error) {
+double relmse_bound(Allowed allowed, double own_error, bool redrawn) {
+    constexpr double k_of_halves = 1e-8;
     constexpr double k_of_rounding = 1e-5;
-    return allowed == Allowed::sampling ? std::max(own_error, k_of_rounding) : k_of_rounding;
+    constexpr double k_of_map_texels = 1e-3;
+    switch (allowed) {
+        case Allowed::nothing:
+            return 0.0;
+        case Allowed::halves:
+            return k_of_halves;
+        case Allowed::rounding:
+            return redrawn ? std::max(own_error, k_of_rounding) : k_of_rounding;
+        case Allowed::sampling:
+            break;
+    }
+    return std::max(own_error, k_of_map_texels);
+}
+
+bool holds(const Difference& d, Allowed allowed, double own_error, bool redrawn) {
+    constexpr double k_two_halves = 2.0 / 1024.0;
+    return d.not_finite == 0 && d.relmse <= relmse_bound(allowed, own_error, redrawn) &&
+           (allowed != Allowed::nothing || d.worst == 0.0) &&
+           (allowed != Allowed::halves || d.worst <= k_two_halves);
 }
 
 }  // namespace bounce::bench

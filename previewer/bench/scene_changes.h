@@ -14,8 +14,10 @@ namespace bounce::bench {
 
 // How far a picture may be from that of the unchanged scene; the reasons are in docs/invariance.md.
 enum class Allowed {
-    rounding,  // floats round elsewhere: pixels on edges flip, hardly any other changes
-    sampling,  // lights and points are chosen anew: as far as pictures with other seeds are from each other
+    nothing,   // every number the program computes with is the same: so is every bit of the picture
+    halves,    // floats round elsewhere, and few of them to another half
+    rounding,  // vertices round elsewhere; lights that are drawn from points anew differ as other seeds do
+    sampling,  // lights, points and texels of maps lie elsewhere
 };
 
 struct SceneChange {
@@ -26,7 +28,7 @@ struct SceneChange {
 };
 [[nodiscard]] const std::vector<SceneChange>& scene_changes();
 
-// Throws std::out_of_range for an unknown name.
+// Throws usage_error, which lists the names there are.
 [[nodiscard]] const SceneChange& scene_change(const std::string& name);
 
 struct Difference {
@@ -41,8 +43,12 @@ constexpr double k_visible = 1e-3;
 // test, divided by `light`, against reference. Throws input_error where the sizes differ.
 [[nodiscard]] Difference difference(const Image& test, const Image& reference, double light = 1.0);
 
-// The largest relMSE that the change may have, where pictures that differ in nothing but their seed are
-// `own_error` apart.
-[[nodiscard]] double relmse_bound(Allowed allowed, double own_error);
+// The largest relMSE that a change may make, where pictures that differ in nothing but their seed are
+// `own_error` apart. redrawn: lights are drawn from points that those of the bounce before light.
+[[nodiscard]] double relmse_bound(Allowed allowed, double own_error, bool redrawn);
+
+// Whether the difference is within what is allowed: its relMSE within the bound, no pixel changed where
+// nothing may, by more than two steps of a half where those may, and all numbers finite.
+[[nodiscard]] bool holds(const Difference& difference, Allowed allowed, double own_error, bool redrawn);
 
 }  // namespace bounce::bench

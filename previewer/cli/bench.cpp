@@ -163,6 +163,8 @@ void add_bench(CLI::App& app, Run& run) {
                      "avg-table1, avg-table2: the paper's screens over this; 1 by default, 2 on a software "
                      "driver")
         ->check(CLI::Range(1, 8));
+    command->add_option("--change", options.changes,
+                        "invariance: make this change alone, as the table names it; may be given again");
     command->add_flag("--quick", options.quick,
                       "Few values, 160x90 pixels, once each: to see that it works, not to measure");
     add_scene_source_options(*command, arguments->source);

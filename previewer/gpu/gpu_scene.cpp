@@ -66,10 +66,11 @@ DrawFeatures features_of(const scene::Scene& scene, const MaterialTextures& text
     return features;
 }
 
-// All that leaves the surface's look the same to the bit; a flat normal map would round.
+// All that leaves the surface's look the same to the bit; a flat normal map would round, and so would white
+// vertex colours on their way across a triangle.
 void force(DrawFeatures& features, const scene::Material& material) {
     features.base_color_texture = features.metallic_roughness_texture = true;
-    features.emission = features.emission_texture = features.vertex_color = true;
+    features.emission = features.emission_texture = true;
     features.alpha_test |= !features.blend && material.base_color.a >= 1.0F;
 }
 
@@ -327,9 +328,6 @@ void GpuScene::bind() const {
     vertices_.bind_vertex_array();
     draws_.bind_storage(SSBO_DRAWS);
     materials_.bind_storage(SSBO_MATERIALS);
-    if (forced_) {
-        glVertexAttrib4f(ATTRIB_COLOR, 1.0F, 1.0F, 1.0F, 1.0F);  // where no stream has any
-    }
 }
 
 void GpuScene::bind_material(const DrawBatch& batch) const {

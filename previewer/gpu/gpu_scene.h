@@ -74,8 +74,8 @@ class GpuScene {
     explicit GpuScene(const scene::Scene& scene);
 
     void set_pose(const scene::Pose& pose);
-    // From the next pose on every branch that shaders have for materials is compiled in, with white textures
-    // and colours, whether a material needs it or not: the picture is the same.
+    // From the next pose on every branch that shaders have for materials is compiled in, with white textures,
+    // whether a material needs it or not: the picture is the same.
     void force_features(bool forced) { forced_ = forced; }
     // Puts simplified meshes beside the whole ones, for the pose that is set. They are made when it is first
     // called, and where the settings change.

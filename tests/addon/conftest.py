@@ -60,6 +60,20 @@ def blender():
 
 
 @pytest.fixture(scope="session")
+def bounce():
+    """Runs the program; fails with what it says."""
+    path = os.environ.get("BOUNCE_BINARY", str(ROOT / "build" / "release" / "bounce"))
+    assert Path(path).is_file(), f"no program at {path}; build it, or set BOUNCE_BINARY"
+
+    def run(*arguments):
+        done = subprocess.run([path, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
+        assert done.returncode == 0, done.stderr
+        return done
+
+    return run
+
+
+@pytest.fixture(scope="session")
 def export(blender):
     """Exports a .blend by the command line and returns the finished process."""
 

@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 EXPERIMENTS = ["rates", "rsm-table1", "ism-fig4", "ism-fig9", "ism-table1", "ism-creation", "ism-splats", "temporal-reuse", "lv-table1", "lv-fig6",
-               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling", "stress"]
+               "lv-fig7", "avg-table1", "avg-table2", "vpl-sampling", "leaving-out", "furnace", "invariance", "stress"]
 TINY = ["--quick", "--size", "32x18", "--vpls", "16", "--points", "64", "--ism-size", "32", "--interleave", "2"]
 
 
@@ -112,6 +112,23 @@ def test_reuse_of_light(bounce, tmp_path):
     light = rows["a light"]
     assert light["with reuse"] == light["relMSE"] and light["reused"] == 0
     assert light["FLIP with reuse"] == light["FLIP a step"]
+
+
+def test_auto_against_presets(bounce, scene, tmp_path):
+    """A square that nothing hides: every preset draws the same, so auto is among the best; of two scenes each counts."""
+    arguments = ["--quick", "--size", "16x9", "--budgets", "60000"]
+    result = bounce("bench", "auto", scene, scene, "-o", "out", *arguments)
+    assert result.returncode == 0, result.stderr
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    tables = {table["title"]: table for table in results["tables"]}
+    assert len(tables["scene, 16x9"]["rows"]) == 7 and "our own mean" in tables["scene, 16x9"]["note"]
+    assert [row[-1] for row in tables["Is auto best"]["rows"]] == ["auto is best"] * 2
+    assert "--technique" in tables["What auto chose"]["rows"][0][-1]
+    assert results["checks"][0]["value"] == results["checks"][0]["limit"] == 2
+    refused = bounce("bench", "rates", scene, scene, "-o", "out", "--quick")
+    assert refused.returncode == 2 and "one scene; 2 were given" in refused.stderr
+    refused = bounce("bench", "auto", scene, "-o", "out", "--sizes", "8x8,9x9", "--budgets", "1,2,3")
+    assert refused.returncode == 2 and "2 sizes for 3 budgets" in refused.stderr
 
 
 def test_samplers_of_lights(bounce, tmp_path):
@@ -269,6 +286,24 @@ def test_no_column_of_the_page_is_out_of_sight(bounce, tmp_path):
         window.resize(420, 900)
         window.wait("document.documentElement.scrollWidth <= 420")
         assert window.errors == []
+
+
+def test_a_changed_scene_has_the_same_picture(bounce, tmp_path):
+    result = bounce("bench", "invariance", "-o", "out", *TINY, "--change", "move 1e6", "--change", "reorder")
+    assert result.returncode == 0, result.stdout + result.stderr
+    (table,) = json.loads((tmp_path / "out" / "results.json").read_text())["tables"]
+    rows = [dict(zip((column["name"] for column in table["columns"]), row)) for row in table["rows"]]
+    assert [(row["settings"], row["change"]) for row in rows] == [
+        (settings, change) for change in ("move 1e6", "reorder") for settings in ("default", "rsm2005")]
+    assert all(row["held"] == "yes" and row["relMSE"] <= row["bound"] and row["not finite"] == 0 for row in rows)
+
+
+def test_unknown_change_lists_the_known(bounce, tmp_path):
+    refused(bounce("bench", "invariance", "-o", "out", *TINY, "--change", "scale 7"), "'scale 7'", "'scale 1e-3'", "'reorder'")
+
+
+def test_one_scene_where_one_is_taken(bounce, tmp_path):
+    refused(bounce("bench", "rates", "a.glb", "b.glb", "-o", "out", *TINY), "one scene; 2 were given")
 
 
 def test_unknown_experiment_lists_the_known(bounce, tmp_path):

@@ -262,6 +262,15 @@ TEST(LoaderScene, NodesComposeFromTransformsAndMatrices) {
     EXPECT_NEAR(pose.world_from_node[0][2].z, 6.0, 1e-6);
 }
 
+TEST(LoaderScene, PlacesFarFromTheOriginKeepTheirDigits) {
+    GltfBuilder builder;
+    builder.node({{"translation", {1000000.000123456, -1e6, 1e6}}});
+    builder.node({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000000.000123456, 0, 0, 1}}});
+    const Pose pose = evaluate_pose(builder.load().scene, 0.0);
+    EXPECT_EQ(pose.world_from_node[0][3].x, 1000000.000123456);
+    EXPECT_EQ(pose.world_from_node[1][3].x, 1000000.000123456);
+}
+
 TEST(LoaderScene, OnlyTheShownSceneIsInTheOrder) {
     GltfBuilder builder;
     builder.triangle_node();
