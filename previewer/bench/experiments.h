@@ -40,8 +40,8 @@ struct BenchOptions {
     std::vector<double> budgets_ms{33.0, 100.0, 250.0};
     std::vector<std::pair<int, int>> sizes;
     std::string
-        references;  // auto: pictures to compare with, {scene} and {size} in their names; may be empty
-    std::string only;        // stress: cases whose names hold this
+        references;    // auto: pictures to compare with, {scene} and {size} in their names; may be empty
+    std::string only;  // stress: cases whose names hold this
     bool generated = false;  // no scene was given: the room was made
     bool quick = false;      // few values, small picture, one repetition
 };
@@ -100,7 +100,7 @@ struct Experiment {
     std::string_view title;
     std::string_view summary;  // for --help, a phrase
     RunExperiment run;
-    bool many_scenes = false;  // otherwise one
+    bool many_scenes = false;       // otherwise one
     bool must_meet_checks = false;  // the program ends with 1 where one of its checks is not met
 };
 [[nodiscard]] const std::vector<Experiment>& experiments();

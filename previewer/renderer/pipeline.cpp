@@ -125,7 +125,8 @@ passes::Drawing drawing(const PipelineInputs& in, const passes::GBuffer& gbuffer
 passes::VplSet add_world(FrameGraph& graph, const PipelineInputs& in, const passes::GBuffer& gbuffer,
                          const passes::ScenePoints& scene) {
     passes::VplSet world = in.world.lights;
-    world.vpls = graph.import_buffer("world lights", *in.world_lights, passes::k_vpl_floats, in.world_content);
+    world.vpls =
+        graph.import_buffer("world lights", *in.world_lights, passes::k_vpl_floats, in.world_content);
     if (in.sphere.cells != nullptr) {
         world = add_vpls_from_sphere(graph, in.context, in.sphere, world, drawing(in, gbuffer, world.seed));
     }
@@ -157,8 +158,8 @@ passes::IsmAtlas add_maps(FrameGraph& graph, const PipelineInputs& in, const pas
 passes::ImperfectMaps add_imperfect_maps(FrameGraph& graph, const PipelineInputs& in,
                                          const passes::ScenePoints& scene, size_t light) {
     passes::ImperfectMaps maps = in.imperfect[light];
-    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light], passes::k_vpl_floats,
-                                        in.places_content[light]);
+    maps.set.vpls = graph.import_buffer("places: " + in.lights[light].name, (*in.places)[light],
+                                        passes::k_vpl_floats, in.places_content[light]);
     passes::IsmInputs inputs = ism_inputs(in, scene);
     inputs.large_triangles = static_cast<int>(in.points->large_triangles());
     inputs.splat = maps.set.distant ? passes::Splat::disks : in.settings.splat;
