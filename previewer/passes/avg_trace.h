@@ -14,9 +14,9 @@ struct AvgTraceInputs {
     // vec4, `sequences` of as many low-discrepancy numbers; one for each ray at least.
     const gl::Buffer* numbers = nullptr;
     int sequences = 1;
-    ContentKey rays;     // of the lights' rays, where they are traced
     int bounce = 0;      // which of the sequences, and, where there are more bounces, how it is turned
     bool glossy = true;  // glossy reflection is kept
+    ContentKey rays{};   // of the lights' rays, where they are traced
 };
 
 // Virtual point lights where rays meet the grid (Bashford-Rogers et al. 2012, III.B), with the flux of their

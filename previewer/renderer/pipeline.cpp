@@ -197,9 +197,9 @@ passes::AvgTraceInputs trace_inputs(const PipelineInputs& in, const passes::AvgG
             .paths = in.settings.avg_paths,
             .numbers = in.avg.numbers,
             .sequences = k_avg_sequences,
-            .rays = in.avg.rays_content,
             .bounce = number,
-            .glossy = in.plan.glossy};
+            .glossy = in.plan.glossy,
+            .rays = in.avg.rays_content};
 }
 
 // The lights of bounce `next`, from what surfaces reflect of the lights of the one before.
