@@ -15,6 +15,7 @@
 #include "cli/info_plan.h"
 #include "cli/render_options.h"
 #include "cli/scene_source.h"
+#include "cli/tuned_options.h"
 #include "core/error.h"
 #include "scene/gltf_loader.h"
 #include "scene/pose.h"
@@ -341,7 +342,7 @@ ExitCode run_info(const CLI::App& command, const InfoArguments& arguments) {
                           scene::world_bounds(loaded.scene, pose), std::filesystem::file_size(file), load_ms};
     std::optional<InfoPlan> plan;
     if (arguments.plan) {
-        plan = info_plan(loaded.scene, arguments.render);
+        plan = info_plan(loaded.scene, with_tuning(command, arguments.render));
     }
     if (arguments.json) {
         json all = summary_json(summary);

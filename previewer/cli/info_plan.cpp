@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/auto_options.h"
 #include "gl/context.h"
 
 namespace bounce::cli {
@@ -19,14 +20,23 @@ double mebibytes(size_t bytes) {
 InfoPlan info_plan(const scene::Scene& scene, const RenderOptions& options) {
     options.check();
     InfoPlan out;
-    out.settings = options.settings(scene);
+    AutoUse automatic = choose_automatically(options, scene, std::nullopt);
+    out.settings = automatic.used ? automatic.choice.settings : options.settings(scene);
     out.frame = scene.frames.start;
     const gl::HeadlessContext context;
     const gl::DeviceInfo device = gl::initialise_current_context();
     require_within(device.limits, out.settings);
     Renderer renderer(scene);
-    const scene::Pose pose = scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, out.frame),
-                                                  options.animation_index(scene));
+    const int animation = options.animation_index(scene);
+    if (automatic.needs_trial()) {
+        try_automatic(renderer, scene, options, animation, {out.frame}, automatic);
+        out.settings = automatic.choice.settings;
+    }
+    if (automatic.used) {
+        out.choices = choice_lines(automatic);
+    }
+    const scene::Pose pose =
+        scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, out.frame), animation);
     const CameraView camera =
         scene_camera(scene, pose, options.camera, out.settings.width, out.settings.height);
     out.report = renderer.plan(pose, camera, out.settings);
@@ -40,6 +50,7 @@ nlohmann::json plan_json(const InfoPlan& plan) {
                           {"height", plan.settings.height},
                           {"passes", plan.report.executed},
                           {"left_out", nlohmann::json::array()},
+                          {"choices", plan.choices},
                           {"approximations", plan.report.approximations},
                           {"memory",
                            {{"lasting_bytes", memory.lasting},
@@ -53,6 +64,10 @@ nlohmann::json plan_json(const InfoPlan& plan) {
 
 void print_plan(const InfoPlan& plan) {
     const FrameReport::Memory memory = plan.report.memory.value();
+    fmt::print("settings    {}\n", plan.choices.empty() ? "as asked for" : "chosen by preset auto");
+    for (const std::string& choice : plan.choices) {
+        fmt::print("  {}\n", choice);
+    }
     fmt::print("plan        frame {}, {} x {} pixels, {} passes\n", plan.frame, plan.settings.width,
                plan.settings.height, plan.report.executed.size());
     for (const std::string& pass : plan.report.executed) {

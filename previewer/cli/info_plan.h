@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/render_options.h"
@@ -15,6 +18,7 @@ struct InfoPlan {
     FrameReport report;
     Settings settings;
     int frame = 0;
+    std::vector<std::string> choices;  // of preset auto, a sentence each
 };
 [[nodiscard]] InfoPlan info_plan(const scene::Scene& scene, const RenderOptions& options);
 

@@ -212,7 +212,6 @@ def test_refusals(guard, bounce, tmp_path):
     refused(evaluate("--reference", reference, "--size", "128x72", "--bounces", 2, "--frames", 7), 3, "frame 1, not of frame 7")
     refused(evaluate("--reference", tmp_path / "none.exr"), 3, "none.exr")
     refused(evaluate("--reference", reference, "--baseline", "none.json"), 3, "none.json")
-    refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 33), 2, "--tuning")
     refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 0, "--tuning", "a.json"), 2, "budget-ms")
     refused(bounce("render", scene, "-o", "a.exr", "--budget-ms", 33, "--tuning", "a.json"), 3, "a.json")
     refused(guard(SCENE, "out", "--baseline", GUARD.DATA / "cornell.json"), 3, "the baseline is of cornell.glb")
