@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -191,24 +190,34 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
     return stats;
 }
 
-// The settings with which the first, the middle and the last frame fit into --memory-limit.
+// The settings with which every frame fits into --memory-limit.
 Settings fitted(Renderer& renderer, const scene::Scene& scene, const Arguments& arguments,
                 const std::vector<int>& frames, int animation, const Settings& settings) {
-    std::deque<scene::Pose> poses;  // that the moments refer to
-    std::vector<Moment> moments;
-    for (const size_t i : std::set<size_t>{0, frames.size() / 2, frames.size() - 1}) {
-        const scene::Pose& pose = poses.emplace_back(
-            scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation));
-        const CameraView camera =
-            scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height);
-        moments.push_back({pose, camera});
-    }
-    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * 1024.0 * 1024.0);
-    MemoryFit fit = fit_to_memory(renderer, moments, settings, frames.size() > 1, limit);
+    constexpr double k_mebibyte = 1024.0 * 1024.0;
+    const auto at = [&](size_t i, const std::function<void(const Moment&)>& visit) {
+        const scene::Pose pose =
+            scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation);
+        visit({pose, scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height)});
+    };
+    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * k_mebibyte);
+    const MemoryFit fit = fit_to_memory(renderer, frames.size(), at, settings, frames.size() > 1, limit);
     for (const std::string& change : fit.changes) {
         log::info("note: to stay within {:g} MiB: {}", *arguments.render.memory_limit_mib, change);
     }
     return fit.settings;
+}
+
+// Why a frame is black, where nothing else says so.
+std::string why_black(const FrameReport& report) {
+    const auto found = std::find_if(report.left_out.begin(), report.left_out.end(), [](const LeftOut& item) {
+        return item.pass.starts_with("light: ") || item.pass == "bounced light";
+    });
+    return found == report.left_out.end() ? "no light reaches what the camera sees"
+                                          : fmt::format("{}: {}", found->pass, found->reason);
+}
+
+bool is_black(const Image& image) {
+    return std::all_of(image.rgb.begin(), image.rgb.end(), [](float value) { return value == 0.0F; });
 }
 
 ExitCode render(const CLI::App& command, Arguments arguments) {
@@ -324,6 +333,12 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
                           ? fmt::format("frame {}, {}", frame,
                                         describe(*measured.converged, arguments.converge.target()))
                           : fmt::format("frame {}, {:.0f} ms", frame, measured.wall_ms()));
+        if (frame != frames.front() && shows_light(settings.show) && measured.report.notes.empty() &&
+            is_black(image)) {
+            measured.report.notes.push_back(
+                fmt::format("frame {} is black: {}", frame, why_black(measured.report)));
+            log::info("note: {}", measured.report.notes.back());
+        }
         if (frame == frames.front()) {
             for (const std::string& note : measured.report.notes) {
                 log::info("note: {}", note);

@@ -34,6 +34,19 @@ const std::map<std::string, Preset>& presets() {
 // drop_hull by name.
 const std::map<std::string, bool> k_hulls = {{"drop", true}, {"splat", false}};
 
+// A number above 0 and at most `most`; others are refused in words.
+CLI::Validator above_zero(double most) {
+    return CLI::Validator(
+        [most](const std::string& text) {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            return number && value > 0.0 && value <= most
+                       ? std::string()
+                       : fmt::format("{} is no number above 0 and up to {:g}", text, most);
+        },
+        "ABOVE 0");
+}
+
 // Options that take one of a few names, or on and off, in a group of the help.
 class Group {
   public:
@@ -395,7 +408,7 @@ void RenderOptions::add_to(CLI::App& command) {
             "--budget-ms", budget_ms,
             "The best settings for so many milliseconds a frame, by curves measured on other scenes; with "
             "--tuning by those of this one")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero(1e9))
         ->group(measured);
     command
         .add_option("--tuning", tuning,
@@ -436,7 +449,7 @@ void RenderOptions::add_still_to(CLI::App& command) {
             "--memory-limit", memory_limit_mib,
             "GPU memory that frames may take, MiB: settings are lowered until they fit, and what was given "
             "up is said")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero(1e9))
         ->group(k_light_transport_group);
 }
 

@@ -19,13 +19,15 @@ void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices
     positions_ = &vertices.positions();
     const std::vector<glm::vec3> radiance = scene::emitted_radiance(pose.materials);
     bool resample = count != count_ || seed != seed_;
-    for (size_t i = 0; i < peak_.size(); ++i) {
-        // An animation that is not the file's first, or a moment that none of those sampled was near.
-        if (!(scene::emitted_luminance(peak_[i]) > 0.0) && scene::emitted_luminance(radiance[i]) > 0.0) {
-            peak_[i] = radiance[i];
-            resample = true;
+    // Another animation than the file's first may light what is dark in that; for this moment alone, so that
+    // no frame depends on those before.
+    std::vector<glm::vec3> peak = peak_;
+    for (size_t i = 0; i < peak.size(); ++i) {
+        if (!(scene::emitted_luminance(peak[i]) > 0.0) && scene::emitted_luminance(radiance[i]) > 0.0) {
+            peak[i] = radiance[i];
         }
     }
+    resample |= peak != sampled_peak_;
     std::vector<bool> drawn(scene_.nodes.size(), false);
     for (const scene::DrawInstance& draw : pose.draws) {
         drawn[static_cast<size_t>(draw.node)] = true;
@@ -45,7 +47,8 @@ void EmitterStore::set_pose(const scene::Pose& pose, const VertexStore& vertices
         return;
     }
     if (resample) {
-        samples_ = emitters_.sample(peak_, shown, count, panels, seed);
+        samples_ = emitters_.sample(peak, shown, count, panels, seed);
+        sampled_peak_ = peak;
     }
     radiance_ = radiance;
     shown_ = std::move(shown);

@@ -40,7 +40,8 @@ class EmitterStore {
     const scene::Scene& scene_;
     const PointStore& points_;
     scene::Emitters emitters_;
-    std::vector<glm::vec3> peak_;  // one a material, what the samples are spread by
+    std::vector<glm::vec3> peak_;          // one a material, over the file's animation
+    std::vector<glm::vec3> sampled_peak_;  // what the samples are spread by
     std::vector<scene::EmitterSample> samples_;
     std::vector<glm::vec3> radiance_;         // one a material, as it was uploaded
     std::vector<bool> shown_;                 // one a surface

@@ -85,14 +85,37 @@ const std::vector<Step>& steps() {
     return all;
 }
 
-size_t peak_of(Renderer& renderer, const std::vector<Moment>& moments, const Settings& settings, bool keeps) {
+size_t peak_of(Renderer& renderer, const Moment& moment, const Settings& settings, bool keeps) {
     renderer.expect_frames(keeps);
-    size_t peak = 0;
-    for (const Moment& moment : moments) {
-        const FrameReport report = renderer.plan(moment.pose, moment.camera, settings);
-        peak = std::max(peak, report.memory.value().peak());
+    return renderer.plan(moment.pose, moment.camera, settings).memory.value().peak();
+}
+
+// Gives up what one frame needs.
+void fit_frame(Renderer& renderer, const Moment& moment, size_t limit, MemoryFit& fit) {
+    size_t peak = peak_of(renderer, moment, fit.settings, fit.keeps);
+    for (size_t step = 0; step < give_up_steps(); ++step) {
+        while (peak > limit) {
+            Settings settings = fit.settings;
+            bool keeps = fit.keeps;
+            const std::string said = give_up(step, settings, keeps);
+            const size_t less = said.empty() ? peak : peak_of(renderer, moment, settings, keeps);
+            if (less >= peak) {
+                break;  // what frees nothing in this scene is not given up
+            }
+            fit.settings = settings;
+            fit.keeps = keeps;
+            fit.changes.push_back(said);
+            peak = less;
+        }
     }
-    return peak;
+    if (peak > limit) {
+        throw usage_error(fmt::format(
+            "{}x{} pixels of {} need {:.1f} MiB of GPU memory with the least settings, and the limit is "
+            "{:.1f}: raise --memory-limit or give a smaller --size",
+            fit.settings.width, fit.settings.height, renderer.gpu_scene().source().name,
+            static_cast<double>(peak) / k_mebibyte, static_cast<double>(limit) / k_mebibyte));
+    }
+    fit.peak_bytes = std::max(fit.peak_bytes, peak);
 }
 
 }  // namespace
@@ -105,33 +128,14 @@ std::string give_up(size_t step, Settings& settings, bool& keeps) {
     return steps().at(step)(settings, keeps);
 }
 
-MemoryFit fit_to_memory(Renderer& renderer, const std::vector<Moment>& moments, const Settings& settings,
+MemoryFit fit_to_memory(Renderer& renderer, size_t count, const MomentAt& at, const Settings& settings,
                         bool keeps, size_t limit) {
-    MemoryFit out{settings, keeps, peak_of(renderer, moments, settings, keeps), {}};
-    for (size_t step = 0; step < give_up_steps(); ++step) {
-        while (out.peak_bytes > limit) {
-            MemoryFit next = out;
-            const std::string said = give_up(step, next.settings, next.keeps);
-            if (said.empty()) {
-                break;
-            }
-            next.peak_bytes = peak_of(renderer, moments, next.settings, next.keeps);
-            if (next.peak_bytes >= out.peak_bytes) {
-                break;  // what frees nothing in this scene is not given up
-            }
-            next.changes.push_back(said);
-            out = std::move(next);
-        }
+    MemoryFit out{settings, keeps, 0, {}};
+    // What a frame gives up may be of no use to one before, but never raises what that one needs.
+    for (size_t i = 0; i < count; ++i) {
+        at(i, [&](const Moment& moment) { fit_frame(renderer, moment, limit, out); });
     }
     renderer.expect_frames(out.keeps);
-    if (out.peak_bytes > limit) {
-        throw usage_error(fmt::format(
-            "{}x{} pixels of {} need {:.1f} MiB of GPU memory with the least settings, and the limit is "
-            "{:.1f}: raise "
-            "--memory-limit or give a smaller --size",
-            settings.width, settings.height, renderer.gpu_scene().source().name,
-            static_cast<double>(out.peak_bytes) / k_mebibyte, static_cast<double>(limit) / k_mebibyte));
-    }
     return out;
 }
 

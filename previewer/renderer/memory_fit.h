@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,14 @@ struct MemoryFit {
     std::vector<std::string> changes;  // what was given up, one sentence each; empty where all fitted
 };
 
-// Where frames of these moments need more than `limit` bytes, gives up one thing after the other until they
+// The frames to be drawn, by their number among them.
+using MomentAt = std::function<void(size_t, const std::function<void(const Moment&)>&)>;
+
+// Where any of `count` frames needs more than `limit` bytes, gives up one thing after the other until they
 // fit, what costs the picture least first; the picture's size and what was not asked for stay. keeps: whether
 // more than one frame is drawn. The textures and buffers that we ask the driver for count, not its own
 // overhead. Throws usage_error, saying how much is needed at least, where nothing helps.
-[[nodiscard]] MemoryFit fit_to_memory(Renderer& renderer, const std::vector<Moment>& moments,
+[[nodiscard]] MemoryFit fit_to_memory(Renderer& renderer, size_t count, const MomentAt& at,
                                       const Settings& settings, bool keeps, size_t limit);
 
 // The steps of that, in order. One changes the settings and returns the sentence, or an empty one where it

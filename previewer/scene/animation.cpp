@@ -100,9 +100,10 @@ Values cubic(const AnimationSampler& sampler, size_t key, double u, double inter
 }  // namespace
 
 std::vector<float> sample(const AnimationSampler& sampler, double time_s, bool is_rotation) {
-    const auto after =
-        std::upper_bound(sampler.times.begin(), sampler.times.end(), time_s,
-                         [](double time, float key) { return time < static_cast<double>(key); });
+    // Files hold times as floats: a key that stands on a frame is the frame's time rounded, now and then
+    // upwards, and must count from that frame on.
+    const auto as_in_file = static_cast<float>(time_s);
+    const auto after = std::upper_bound(sampler.times.begin(), sampler.times.end(), as_in_file);
     Values result;
     if (after == sampler.times.begin()) {
         result = copied(sampler, 0);
@@ -114,7 +115,7 @@ std::vector<float> sample(const AnimationSampler& sampler, double time_s, bool i
         } else {
             const auto start = static_cast<double>(sampler.times[key]);
             const double interval_s = static_cast<double>(*after) - start;
-            const double u = (time_s - start) / interval_s;
+            const double u = std::clamp((time_s - start) / interval_s, 0.0, 1.0);
             if (sampler.interpolation == Interpolation::cubic_spline) {
                 result = cubic(sampler, key, u, interval_s);
             } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "scene/points/outline.h"
@@ -165,11 +166,25 @@ std::vector<glm::vec3> peak_radiance(const Scene& scene, int animation) {
                                           channel.property == Property::material_emission_strength;
                                });
         });
+    std::set<double> moments;
     for (int i = 0; animated && i < k_moments; ++i) {
-        const double frame = scene.frames.start + (scene.frames.end - scene.frames.start) *
-                                                      static_cast<double>(i) / (k_moments - 1);
+        moments.insert(
+            time_of_frame(scene.frames, scene.frames.start + (scene.frames.end - scene.frames.start) *
+                                                                 static_cast<double>(i) / (k_moments - 1)));
+    }
+    // A flash is brightest at a key of its own.
+    for (const Animation& candidate : scene.animations) {
+        for (const AnimationChannel& channel : candidate.channels) {
+            if (channel.property == Property::material_emission ||
+                channel.property == Property::material_emission_strength) {
+                const std::vector<float>& keys = candidate.samplers[at(channel.sampler)].times;
+                moments.insert(keys.begin(), keys.end());
+            }
+        }
+    }
+    for (const double time_s : moments) {
         const std::vector<glm::vec3> now =
-            emitted_radiance(evaluate_pose(scene, time_of_frame(scene.frames, frame), animation).materials);
+            emitted_radiance(evaluate_pose(scene, time_s, animation).materials);
         for (size_t m = 0; m < peak.size(); ++m) {
             peak[m] = emitted_luminance(now[m]) > emitted_luminance(peak[m]) ? now[m] : peak[m];
         }

@@ -57,3 +57,11 @@ def test_forcing_what_is_exact_changes_no_bit(bounce, render, scene, tmp_path):
     assert stats["settings"]["forced"] == "exact" and "over, layer 1" in stats["frames"][0]["executed"]
     assert bounce("compare", "a.exr", "b.exr", "--json", "c.json").returncode == 0
     assert json.loads((tmp_path / "c.json").read_text())["max_abs"] == 0
+
+
+def test_a_frame_that_turns_black_says_why(render, scene):
+    """The spot sends nothing at frame 10; not only the first frame of a run is looked at."""
+    result = render(scene, "-o", "a.####.exr", "--frames", "12,11,10", "--technique", "direct")
+    assert result.returncode == 0, result.stderr
+    (note,) = [line for line in result.stderr.splitlines() if "is black" in line]
+    assert "frame 10" in note and "light: Spot: it sends no light in this frame" in note

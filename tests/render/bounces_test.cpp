@@ -227,7 +227,7 @@ TEST_F(PointUpdates, OnlyWhatMovedIsMoved) {
     EXPECT_EQ(changed_points(store), 2048U) << "another count, other points";
 }
 
-TEST_F(PointUpdates, WhatDeformsIsMovedAlways) {
+TEST_F(PointUpdates, WhatDeformsIsMovedWhereItDoes) {
     scene::Scene scene = corner_scene();
     const int ball = add_ball(scene, 0, 0.3F);
     scene::MorphTarget aside;
@@ -242,10 +242,14 @@ TEST_F(PointUpdates, WhatDeformsIsMovedAlways) {
     counts.points_a_map = 512;
     counts.occluders = 4096;
     counts.large_triangles = false;
-    const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+    scene::Pose pose = scene::evaluate_pose(scene, 0.0);
     gpu_scene.set_pose(pose);
     store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
     store.update_done();
+    store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
+    EXPECT_EQ(changed_points(store), 0U) << "it rests";
+    pose.weights[static_cast<size_t>(node)] = {0.75F};
+    gpu_scene.set_pose(pose);
     store.set_pose(pose, gpu_scene.space(), gpu_scene.vertices(), counts, false, false);
     EXPECT_GT(changed_points(store), 50U);
     EXPECT_LT(changed_points(store), 400U) << "the ball's alone";

@@ -13,6 +13,7 @@
 #include "image/metrics.h"
 #include "ism_fixture.h"
 #include "renderer/memory_fit.h"
+#include "scene/primitive_bounds.h"
 
 namespace bounce::test {
 namespace {
@@ -38,6 +39,10 @@ scene::Scene set_scene() {
     lamp.radius_m = 0.2F;
     add_light(scene, lamp, moved({-0.5, -1.0, 1.5}));
     scene.world.color = glm::vec3(0.2F, 0.3F, 0.4F);
+    for (scene::Mesh& mesh : scene.meshes) {  // as the loader does: what is not seen is told by them
+        for (scene::Primitive& primitive : mesh.primitives)
+            primitive.bounds = scene::primitive_bounds(primitive);
+    }
     return scene;
 }
 
@@ -219,6 +224,7 @@ TEST_F(Unchanged, AMorphThatRestsIsNotDeformedAgain) {
     scene::MorphTarget target;
     target.positions.assign(ball.primitives[0].positions.size(), glm::vec3(0.1F, 0.0F, 0.2F));
     ball.primitives[0].targets = {target};
+    ball.primitives[0].bounds = scene::primitive_bounds(ball.primitives[0]);
     ball.weights = {0.0F};
     const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const scene::Node& n) {
         return n.mesh == static_cast<int>(scene.meshes.size()) - 1;
@@ -317,23 +323,21 @@ TEST_F(Unchanged, AMemoryLimitIsKeptOrRefused) {
     large.soft_shadow_size = 256;
     const CameraView camera = camera_from_above(4.0, 10.0);
     const scene::Pose pose = scene::evaluate_pose(scene, 0.0);
+    const MomentAt at = [&](size_t, const auto& visit) { visit({pose, camera}); };
     Renderer renderer(scene);
-    const MemoryFit all = fit_to_memory(renderer, {{pose, camera}}, large, true, size_t{1} << 40U);
+    const MemoryFit all = fit_to_memory(renderer, 1, at, large, true, size_t{1} << 40U);
     EXPECT_TRUE(all.changes.empty());
     EXPECT_TRUE(all.keeps);
     const size_t limit = all.peak_bytes / 2;
     Renderer limited(scene);
     gl::restart_peak();
-    const MemoryFit fit = fit_to_memory(limited, {{pose, camera}}, large, true, limit);
+    const MemoryFit fit = fit_to_memory(limited, 1, at, large, true, limit);
     EXPECT_FALSE(fit.changes.empty());
     EXPECT_LE(fit.peak_bytes, limit);
     (void)limited.render(pose, camera, fit.settings);
     EXPECT_LE(gl::peak_allocated_bytes(), limit + all.peak_bytes) << "the first renderer is there as well";
-    EXPECT_THAT(
-        [&] {
-            (void)fit_to_memory(limited, {{pose, camera}}, large, true, 1000);
-        },
-        ThrowsMessage<Error>(HasSubstr("raise --memory-limit")));
+    EXPECT_THAT([&] { (void)fit_to_memory(limited, 1, at, large, true, 1000); },
+                ThrowsMessage<Error>(HasSubstr("raise --memory-limit")));
 }
 
 }  // namespace

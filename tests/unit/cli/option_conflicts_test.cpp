@@ -151,7 +151,9 @@ TEST(OptionConflicts, PullPushNeedsHoles) {
 
 TEST(OptionConflicts, FurtherBouncesNeedMoreThanOne) {
     const auto of = [](RenderOptions& o) { o.bounce_vpls = 32; };
-    EXPECT_THAT(conflict(of, {.bounces = 1}), AllOf(HasSubstr("--bounce-vpls"), HasSubstr("--bounces 2")));
+    EXPECT_THAT(conflict(of, {.bounces = 1, .world_vpls = 0, .emitter_vpls = 0}),
+                AllOf(HasSubstr("--bounce-vpls"), HasSubstr("--bounces 2")));
+    EXPECT_EQ(conflict(of, {.bounces = 1}), "") << "the world's light bounces, and that of what emits";
     EXPECT_EQ(conflict(of, {.bounces = 2}), "");
 }
 

@@ -27,6 +27,27 @@ TEST(Sampling, StepHoldsTheKeyBefore) {
     EXPECT_EQ(sample(step, 100.0, false)[0], 40.0F);
 }
 
+// A file's times are floats, often a little after the frame that they stand for.
+TEST(Sampling, AHeldKeyCountsFromItsFrameOnAtAnyRate) {
+    for (const double fps : {23.976, 24.0, 25.0, 29.97, 30.0, 60.0}) {
+        const FrameRange range{1, 96, fps};
+        std::vector<float> times;
+        std::vector<float> values;
+        for (int frame = 1; frame <= 96; ++frame) {
+            times.push_back(static_cast<float>((frame - 1) / fps));
+            values.push_back(static_cast<float>(frame));
+        }
+        const AnimationSampler step = sampler(Interpolation::step, 1, times, values);
+        const AnimationSampler line = sampler(Interpolation::linear, 1, times, values);
+        for (int frame = 1; frame <= 96; ++frame) {
+            const double time_s = time_of_frame(range, frame);
+            EXPECT_EQ(sample(step, time_s, false)[0], static_cast<float>(frame)) << fps;
+            EXPECT_NEAR(sample(line, time_s, false)[0], frame, 1e-3) << fps;
+            EXPECT_EQ(sample(step, time_s + 0.5 / fps, false)[0], static_cast<float>(frame)) << fps;
+        }
+    }
+}
+
 TEST(Sampling, LinearIsClamped) {
     const AnimationSampler line = sampler(Interpolation::linear, 2, {1, 3}, {0, 10, 4, 30});
     EXPECT_EQ(sample(line, -5.0, false), (std::vector<float>{0, 10}));

@@ -133,6 +133,23 @@ TEST(Emitters, SamplesAreSpreadByWhatSurfacesSendAtTheirBrightest) {
     EXPECT_EQ(peak[1].r, 0.0F) << "unlit";
 }
 
+// Two frames of two hundred, between any moments that are spread evenly.
+TEST(Emitters, AFlashIsAsBrightAsItsKey) {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].emission = glm::vec3(2.0F);
+    scene.materials[0].emission_strength = 0.0F;
+    Animation animation;
+    const auto at_frame = [](int frame) { return static_cast<float>((frame - 1) / 24.0); };
+    animation.samplers.push_back(
+        {Interpolation::step, 1, {0.0F, at_frame(52), at_frame(54)}, {0.0F, 7.0F, 0.0F}});
+    animation.channels.push_back({Property::material_emission_strength, 0, 0});
+    animation.duration_s = at_frame(200);
+    scene.animations.push_back(animation);
+    scene.frames = {1, 200, 24.0};
+    EXPECT_NEAR(peak_radiance(scene, 0)[0].r, 14.0F, 1e-3F);
+}
+
 TEST(Emitters, AMaterialThatIsLitLaterIsKept) {
     Emitting e;
     for (Material& material : e.scene.materials) material.emission_strength = 0.0F;

@@ -85,8 +85,8 @@ void expect_cover(const Piece& piece, size_t count) {
         ASSERT_FALSE(cover.empty()) << angle;
         ASSERT_LE(cover.size(), count) << angle;
         const double area = area_of(turned_piece.positions, turned_piece.triangles);
-        // Floats 30 m from the origin are 1.9e-6 m apart: half of that along the 6.3 m around the smallest piece, of
-        // 1 m^2, is 6e-6 of it.
+        // Floats 30 m from the origin are 1.9e-6 m apart: half of that along the 6.3 m around the smallest
+        // piece, of 1 m^2, is 6e-6 of it.
         EXPECT_NEAR(area_of(turned_piece.positions, cover) / area, 1.0, 6e-6);
         std::mt19937 random(1);
         std::uniform_real_distribution<double> in(-1.0, 13.0);
