@@ -209,11 +209,14 @@ Settings fitted(Renderer& renderer, const scene::Scene& scene, const Arguments& 
 
 // Why a frame is black, where nothing else says so.
 std::string why_black(const FrameReport& report) {
-    const auto found = std::find_if(report.left_out.begin(), report.left_out.end(), [](const LeftOut& item) {
-        return item.pass.starts_with("light: ") || item.pass == "bounced light";
-    });
-    return found == report.left_out.end() ? "no light reaches what the camera sees"
-                                          : fmt::format("{}: {}", found->pass, found->reason);
+    for (const char* kind : {"light: ", "bounced light"}) {
+        const auto found = std::find_if(report.left_out.begin(), report.left_out.end(),
+                                        [&](const LeftOut& item) { return item.pass.starts_with(kind); });
+        if (found != report.left_out.end()) {
+            return fmt::format("{}: {}", found->pass, found->reason);
+        }
+    }
+    return "no light reaches what the camera sees";
 }
 
 bool is_black(const Image& image) {

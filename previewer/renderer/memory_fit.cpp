@@ -110,8 +110,8 @@ void fit_frame(Renderer& renderer, const Moment& moment, size_t limit, MemoryFit
     }
     if (peak > limit) {
         throw usage_error(fmt::format(
-            "{}x{} pixels of {} need {:.1f} MiB of GPU memory with the least settings, and the limit is "
-            "{:.1f}: raise --memory-limit or give a smaller --size",
+            "{}x{} pixels of {} need {:.3g} MiB of GPU memory with the least settings, and the limit is "
+            "{:.3g}: raise --memory-limit or give a smaller --size",
             fit.settings.width, fit.settings.height, renderer.gpu_scene().source().name,
             static_cast<double>(peak) / k_mebibyte, static_cast<double>(limit) / k_mebibyte));
     }

@@ -79,21 +79,26 @@ class Unchanged : public testing::Test {
     void SetUp() override { require_context(); }
 
     // Three frames with a change in each, and the first one's once more: by one renderer that keeps what did
-    // not change, each beside a renderer of its own. Returns what the third frame ran.
-    static Names run(const scene::Scene& scene, const Settings& settings, const Change& change) {
+    // not change, each beside a renderer of its own; or where it is to be quick the third alone. Returns what the
+    // third frame ran.
+    static Names run(const scene::Scene& scene, const Settings& settings, const Change& change,
+                     bool quick = false) {
         Renderer keeping(scene);
         keeping.expect_frames(true);
         Names third;
-        for (const int frame : {0, 1, 2, 0}) {
+        for (const int frame : quick ? std::vector{0, 1, 2} : std::vector{0, 1, 2, 0}) {
             Changed now{scene::evaluate_pose(scene, 0.0), camera_from_above(4.0, 10.0)};
             change(now, frame);
             const FrameReport report = keeping.render(now.pose, now.camera, settings);
             keeping.keep_frame();
+            third = frame == 2 ? report.executed : third;
+            if (quick && frame != 2) {
+                continue;
+            }
             const Image kept = keeping.read_color();
             Renderer fresh(scene);
             (void)fresh.render(now.pose, now.camera, settings);
             EXPECT_EQ(kept.rgb, fresh.read_color().rgb) << "frame " << frame;
-            third = frame == 2 ? report.executed : third;
         }
         return third;
     }
@@ -214,7 +219,7 @@ TEST_F(Unchanged, NoSettingsShowIt) {
         run(scene, settings, [](Changed& now, int frame) {
             k_camera(now, frame);
             if (frame == 2) move_ball(now.pose, 0.1);
-        });
+        }, true);
     }
 }
 
