@@ -79,8 +79,8 @@ class Unchanged : public testing::Test {
     void SetUp() override { require_context(); }
 
     // Three frames with a change in each, and the first one's once more: by one renderer that keeps what did
-    // not change, each beside a renderer of its own; or where it is to be quick the third alone. Returns what the
-    // third frame ran.
+    // not change, each beside a renderer of its own; or where it is to be quick the third alone. Returns what
+    // the third frame ran.
     static Names run(const scene::Scene& scene, const Settings& settings, const Change& change,
                      bool quick = false) {
         Renderer keeping(scene);
@@ -216,10 +216,13 @@ TEST_F(Unchanged, NoSettingsShowIt) {
     const scene::Scene scene = set_scene();
     for (const auto& [name, settings] : all) {
         SCOPED_TRACE(name);
-        run(scene, settings, [](Changed& now, int frame) {
-            k_camera(now, frame);
-            if (frame == 2) move_ball(now.pose, 0.1);
-        }, true);
+        run(
+            scene, settings,
+            [](Changed& now, int frame) {
+                k_camera(now, frame);
+                if (frame == 2) move_ball(now.pose, 0.1);
+            },
+            true);
     }
 }
 
