@@ -185,11 +185,10 @@ std::vector<Contestant> presets(const AutoScene& described, const Size& size) {
     AutoRequest request;
     request.base = SceneBench::sized(Settings{}, size);
     out.emplace_back("auto, no budget", choose_settings(described, request).settings);
-    for (const auto& [name, preset] :
-         {std::pair{"rsm2005", Preset::rsm2005}, std::pair{"ism2008", Preset::ism2008},
-          std::pair{"lv2009", Preset::lv2009}, std::pair{"avg2012", Preset::avg2012},
-          std::pair{"metropolis2013", Preset::metropolis2013}}) {
-        out.emplace_back(name, SceneBench::sized(preset_settings(preset), size));
+    for (const auto& [name, preset] : preset_names()) {
+        if (preset != Preset::automatic) {
+            out.emplace_back(name, SceneBench::sized(preset_settings(preset), size));
+        }
     }
     return out;
 }

@@ -6,6 +6,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/room.h"
+
 namespace bounce::bench {
 namespace {
 
@@ -86,13 +88,6 @@ scene::Primitive walls(FurnaceShape shape) {
     return shape == FurnaceShape::cube ? cube_walls() : sphere_wall();
 }
 
-void add_node(scene::Scene& scene, scene::Node node) {
-    const auto index = static_cast<int>(scene.nodes.size());
-    scene.nodes.push_back(std::move(node));
-    scene.roots.push_back(index);
-    scene.topological_order.push_back(index);
-}
-
 }  // namespace
 
 scene::Scene make_furnace(const Furnace& furnace) {
@@ -115,7 +110,7 @@ scene::Scene make_furnace(const Furnace& furnace) {
     scene::Node node;
     node.name = "walls";
     node.mesh = 0;
-    add_node(scene, std::move(node));
+    add_root(scene, std::move(node));
     if (furnace.light == FurnaceLight::point) {
         scene::Light light;
         light.name = "lamp";
@@ -126,7 +121,7 @@ scene::Scene make_furnace(const Furnace& furnace) {
         lamp.name = "lamp";
         lamp.light = 0;
         lamp.local.translation = {0.3, -0.2, 0.15};
-        add_node(scene, std::move(lamp));
+        add_root(scene, std::move(lamp));
     }
     return scene;
 }

@@ -23,7 +23,6 @@ constexpr int k_quick_frames = 3;
 constexpr double k_turn_deg = 3.0;  // a frame of the turntable: 120 frames around
 constexpr int k_width = 480;
 constexpr int k_height = 270;
-constexpr double k_mebibyte = 1024.0 * 1024.0;
 
 // Most that forcing what is left out by an estimate may change a picture: the sampling error of bounced
 // light, which other points in the shadow maps draw anew.
@@ -109,7 +108,7 @@ double peak_mebibytes(const BenchInputs& inputs, const Settings& settings, const
         (void)renderer.render(shot.pose, shot.camera, forced(settings, mode));
         renderer.keep_frame();
     }
-    return static_cast<double>(gl::peak_allocated_bytes() - before) / k_mebibyte;
+    return static_cast<double>(gl::peak_allocated_bytes() - before) / gl::k_mebibyte;
 }
 
 Table passes_table(const std::string& motion, const std::array<Runner, 4>& runs) {

@@ -80,13 +80,6 @@ scene::Primitive unit_sphere(int segments, int rings) {
     return out;
 }
 
-void add_node(scene::Scene& scene, scene::Node node) {
-    const auto index = static_cast<int>(scene.nodes.size());
-    scene.nodes.push_back(std::move(node));
-    scene.roots.push_back(index);
-    scene.topological_order.push_back(index);
-}
-
 void add_mesh_node(scene::Scene& scene, const char* name, int mesh, const glm::dvec3& place = glm::dvec3(0.0),
                    double size = 1.0) {
     scene::Node node;
@@ -94,7 +87,7 @@ void add_mesh_node(scene::Scene& scene, const char* name, int mesh, const glm::d
     node.mesh = mesh;
     node.local.translation = place;
     node.local.scale = glm::dvec3(size);
-    add_node(scene, std::move(node));
+    add_root(scene, std::move(node));
 }
 
 glm::dmat4 looking(const glm::dvec3& from, const glm::dvec3& at) {
@@ -102,6 +95,13 @@ glm::dmat4 looking(const glm::dvec3& from, const glm::dvec3& at) {
 }
 
 }  // namespace
+
+void add_root(scene::Scene& scene, scene::Node node) {
+    const auto index = static_cast<int>(scene.nodes.size());
+    scene.nodes.push_back(std::move(node));
+    scene.roots.push_back(index);
+    scene.topological_order.push_back(index);
+}
 
 scene::Scene make_room(int segments) {
     scene::Scene scene;
@@ -146,7 +146,7 @@ scene::Scene make_room(int segments) {
     light.name = "Spot";
     light.light = 0;
     light.matrix = looking({-1.6, 2.7, 0.8}, {-2.2, 0.0, -0.6});
-    add_node(scene, std::move(light));
+    add_root(scene, std::move(light));
 
     scene::Camera camera;
     camera.name = "Camera";
@@ -159,7 +159,7 @@ scene::Scene make_room(int segments) {
     node.camera = 0;
     node.matrix = looking({0.8, 1.6, 1.9}, {-0.2, 1.1, -1.0});
     scene.active_camera_node = static_cast<int>(scene.nodes.size());
-    add_node(scene, std::move(node));
+    add_root(scene, std::move(node));
     return scene;
 }
 

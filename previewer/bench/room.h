@@ -11,4 +11,7 @@ namespace bounce::bench {
 // the square of it.
 [[nodiscard]] scene::Scene make_room(int segments = 64);
 
+// Adds a node that has no parent.
+void add_root(scene::Scene& scene, scene::Node node);
+
 }  // namespace bounce::bench

@@ -5,14 +5,13 @@
 
 #include "cli/auto_options.h"
 #include "gl/context.h"
+#include "gl/memory.h"
 
 namespace bounce::cli {
 namespace {
 
-constexpr double k_mebibyte = 1024.0 * 1024.0;
-
 double mebibytes(size_t bytes) {
-    return static_cast<double>(bytes) / k_mebibyte;
+    return static_cast<double>(bytes) / gl::k_mebibyte;
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "gl/context.h"
+#include "gl/memory.h"
 #include "image/image_io.h"
 #include "renderer/memory_fit.h"
 #include "renderer/renderer.h"
@@ -193,13 +194,12 @@ FrameStats measure_frame(Renderer& renderer, const Moment& now, const Moment* be
 // The settings with which every frame fits into --memory-limit.
 Settings fitted(Renderer& renderer, const scene::Scene& scene, const Arguments& arguments,
                 const std::vector<int>& frames, int animation, const Settings& settings) {
-    constexpr double k_mebibyte = 1024.0 * 1024.0;
     const auto at = [&](size_t i, const std::function<void(const Moment&)>& visit) {
         const scene::Pose pose =
             scene::evaluate_pose(scene, scene::time_of_frame(scene.frames, frames[i]), animation);
         visit({pose, scene_camera(scene, pose, arguments.render.camera, settings.width, settings.height)});
     };
-    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * k_mebibyte);
+    const auto limit = static_cast<size_t>(*arguments.render.memory_limit_mib * gl::k_mebibyte);
     const MemoryFit fit = fit_to_memory(renderer, frames.size(), at, settings, frames.size() > 1, limit);
     for (const std::string& change : fit.changes) {
         log::info("note: to stay within {:g} MiB: {}", *arguments.render.memory_limit_mib, change);
@@ -219,10 +219,6 @@ std::string why_black(const FrameReport& report) {
     return "no light reaches what the camera sees";
 }
 
-bool is_black(const Image& image) {
-    return std::all_of(image.rgb.begin(), image.rgb.end(), [](float value) { return value == 0.0F; });
-}
-
 ExitCode render(const CLI::App& command, Arguments arguments) {
     const Stopwatch run;
     arguments.render = with_tuning(command, arguments.render);
@@ -240,7 +236,6 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     warn_of_unsupported(scene);
     AutoUse automatic = choose_automatically(arguments.render, scene, arguments.converge.frame_target());
     Settings settings = automatic.used ? automatic.choice.settings : arguments.render.settings(scene);
-    settings.check_finite = arguments.check_finite;
     note_other_conditions(arguments.render, settings);
     if (arguments.removed && settings.technique != Technique::ism) {
         throw usage_error(
@@ -283,6 +278,7 @@ ExitCode render(const CLI::App& command, Arguments arguments) {
     if (arguments.render.memory_limit_mib) {
         settings = fitted(renderer, scene, arguments, frames, animation, settings);
     }
+    settings.check_finite = arguments.check_finite;  // whatever auto chose on trial
     const FrameWriter writer(scene, settings, arguments.view);
     StatsFile stats(arguments.scene, device, settings);
     if (automatic.used) {

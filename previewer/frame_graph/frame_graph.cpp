@@ -77,7 +77,7 @@ TextureHandle PassBuilder::create_texture(const std::string& name, const gl::Tex
     resource.packed = packed;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare_created(pass_, version);
+    graph_.declare(pass_, version);
     graph_.dependencies_.write(pass_, version);
     graph_.passes_[at(pass_)].writes.push_back(version);
     return {version};
@@ -91,7 +91,7 @@ BufferHandle PassBuilder::create_buffer(const std::string& name, size_t bytes, c
     resource.words = words;
     graph_.resources_.push_back(std::move(resource));
     const int version = graph_.add_version(static_cast<int>(graph_.resources_.size()) - 1);
-    graph_.declare_created(pass_, version);
+    graph_.declare(pass_, version);
     graph_.dependencies_.write(pass_, version);
     graph_.passes_[at(pass_)].writes.push_back(version);
     return {version};
@@ -111,15 +111,9 @@ BufferHandle PassBuilder::read(BufferHandle handle) {
     return handle;
 }
 
-void FrameGraph::declare_created(int pass, int version) {
-    const int resource = declare(pass, version);
-    passes_[at(pass)].written.push_back(resource);
-}
-
 // A new version of what `version` stands for.
 int FrameGraph::declare_write(int pass, int version) {
     const int resource = declare(pass, version);
-    passes_[at(pass)].written.push_back(resource);
     dependencies_.read(pass, version);
     const int next = add_version(resource);
     dependencies_.write(pass, next);
@@ -171,80 +165,6 @@ void FrameGraph::find_lifetimes(const std::vector<bool>& live) {
     }
 }
 
-// Of every version that live passes write what decides on it, as far as that is known.
-void FrameGraph::find_contents(const std::vector<bool>& live) {
-    std::vector<bool> read_between(resources_.size(), false);  // a version that another pass changes later
-    for (size_t i = 0; i < passes_.size(); ++i) {
-        const Pass& pass = passes_[i];
-        if (!live[i]) {
-            continue;
-        }
-        bool known = pass.decided_by.known() && !pass.condition;
-        ContentHash hash;
-        hash.add_text(pass.name).add(pass.decided_by);
-        for (const int version : pass.reads) {
-            known = known && content_of_version_[at(version)].known();
-            hash.add(content_of_version_[at(version)]);
-            const int resource = resource_of_version_[at(version)];
-            const bool changes = std::any_of(pass.writes.begin(), pass.writes.end(), [&](int written) {
-                return resource_of_version_[at(written)] == resource;
-            });
-            if (version != resources_[at(resource)].latest_version && !changes) {
-                read_between[at(resource)] = true;
-            }
-        }
-        for (size_t w = 0; w < pass.writes.size(); ++w) {
-            ContentKey& content = content_of_version_[at(pass.writes[w])];
-            if (known && !content.known()) {
-                content = ContentHash(hash).add(w).key();
-            }
-        }
-    }
-    for (size_t i = 0; i < resources_.size(); ++i) {
-        Resource& resource = resources_[i];
-        const ContentKey& content = content_of_version_[at(resource.latest_version)];
-        const bool own = resource.imported == nullptr && resource.imported_buffer == nullptr;
-        if (own && resource.kept == nullptr && content.known() && !read_between[i]) {
-            ContentHash hash;
-            hash.add(content).add_text(resource.name).add(resource.is_texture).add(resource.bytes);
-            hash.add(resource.desc);
-            resource.key = hash.key();
-        }
-    }
-}
-
-// The passes that still run where what is kept need not be made again.
-std::vector<bool> FrameGraph::live_without_kept(const std::vector<bool>& live, KeptContents& kept) {
-    std::set<ContentKey> keys;
-    for (Resource& resource : resources_) {
-        if (resource.key.known()) {
-            resource.kept_before =
-                resource.is_texture ? kept.has_texture(resource.key) : kept.has_buffer(resource.key);
-            // One is kept of each: of several that are alike the others are made.
-            resource.kept_before = keys.insert(resource.key).second && resource.kept_before;
-        }
-    }
-    kept.drop_others(keys, pool_);
-    std::vector<bool> out = live;
-    for (bool again = true; again;) {
-        again = false;
-        std::vector<bool> at_hand(resource_of_version_.size());
-        for (size_t version = 0; version < at_hand.size(); ++version) {
-            at_hand[version] = resources_[at(resource_of_version_[version])].kept_before;
-        }
-        out = dependencies_.live_passes(at_hand);
-        // A pass that runs for another of its results writes this one as well: then it cannot be the old one.
-        for (size_t i = 0; i < passes_.size(); ++i) {
-            for (const int version : passes_[i].writes) {
-                Resource& resource = resources_[at(resource_of_version_[at(version)])];
-                again = again || (out[i] && resource.kept_before);
-                resource.kept_before = resource.kept_before && !out[i];
-            }
-        }
-    }
-    return out;
-}
-
 void FrameGraph::acquire(Resource& resource, bool zeroed) {
     if (resource.kept_before && resource.is_texture) {
         resource.texture = std::move(kept_->take_texture(resource.key).value());
@@ -268,8 +188,8 @@ void FrameGraph::acquire(Resource& resource, bool zeroed) {
 }
 
 void FrameGraph::show(const Pass& pass, PassObserver& observer) const {
-    for (const int index : pass.written) {
-        const Resource& resource = resources_[at(index)];
+    for (const int version : pass.writes) {
+        const Resource& resource = resources_[at(resource_of_version_[at(version)])];
         if (resource.is_texture) {
             observer.wrote(pass.name, resource.name,
                            resource.imported != nullptr ? *resource.imported : resource.texture,
@@ -342,54 +262,6 @@ class FrameGraph::ReleaseAtEnd {
   private:
     FrameGraph& graph_;
 };
-
-FrameGraph::Forecast FrameGraph::forecast(bool keeps, bool holds) {
-    const std::vector<bool> live = dependencies_.live_passes();
-    find_contents(live);
-    find_lifetimes(live);
-    Forecast out;
-    std::vector<gl::TextureDesc> idle_textures;
-    std::vector<size_t> idle_buffers;
-    size_t allocated = 0;
-    // Of an equal one that is idle nothing is allocated.
-    const auto acquire_from = [&](auto& idle, const auto& what, size_t bytes) {
-        const auto found = std::find(idle.begin(), idle.end(), what);
-        if (found == idle.end()) {
-            allocated += bytes;
-            out.peak_bytes = std::max(out.peak_bytes, allocated);
-        } else {
-            idle.erase(found);
-        }
-    };
-    for (size_t pass = 0; pass < passes_.size(); ++pass) {
-        (live[pass] ? out.passes : out.culled).push_back(passes_[pass].name);
-        for (const Resource& resource : resources_) {
-            if (resource.imported != nullptr || resource.imported_buffer != nullptr) {
-                continue;
-            }
-            const bool first = resource.first_use == static_cast<int>(pass);
-            if (first && resource.is_texture) {
-                acquire_from(idle_textures, resource.desc, gl::storage_bytes(resource.desc));
-            } else if (first) {
-                acquire_from(idle_buffers, resource.bytes, resource.bytes);
-            }
-        }
-        for (const Resource& resource : resources_) {
-            const bool stays = resource.kept != nullptr || (keeps && resource.key.known());
-            if (resource.last_use != static_cast<int>(pass) || stays || resource.imported != nullptr ||
-                resource.imported_buffer != nullptr) {
-                continue;
-            }
-            if (!holds) {
-                allocated -= resource.is_texture ? gl::storage_bytes(resource.desc) : resource.bytes;
-            } else {
-                resource.is_texture ? idle_textures.push_back(resource.desc)
-                                    : idle_buffers.push_back(resource.bytes);
-            }
-        }
-    }
-    return out;
-}
 
 void FrameGraph::execute(gl::PassTimer& timer, KeptContents* kept, PassObserver* observer) {
     kept_ = kept != nullptr && kept->on() ? kept : nullptr;

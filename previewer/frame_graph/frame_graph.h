@@ -119,7 +119,9 @@ class FrameGraph {
     template <typename Setup>
     void add_pass(const std::string& name, Setup&& setup) {
         const int pass = dependencies_.add_pass(name);
-        passes_.push_back({name, {}, {}, {}, condition_, {}, {}, {}});
+        Pass& added = passes_.emplace_back();
+        added.name = name;
+        added.condition = condition_;
         PassBuilder builder(*this, pass);
         passes_.back().execute = setup(builder);
     }
@@ -184,7 +186,6 @@ class FrameGraph {
         std::string name;
         Execute execute;
         std::vector<int> resources;  // declared, by resource (not version)
-        std::vector<int> written;    // of these
         std::function<bool()> condition;
         std::vector<int> reads, writes;  // versions
         ContentKey decided_by;
@@ -192,7 +193,6 @@ class FrameGraph {
 
     int add_version(int resource);
     int declare(int pass, int version);
-    void declare_created(int pass, int version);
     int declare_write(int pass, int version);
     void find_lifetimes(const std::vector<bool>& live);
     void find_contents(const std::vector<bool>& live);

@@ -5,6 +5,8 @@
 
 namespace bounce::gl {
 
+inline constexpr double k_mebibyte = 1024.0 * 1024.0;
+
 // Counts what we ask of the driver for as long as it lives. The driver's own overhead is not in it.
 class Allocation {
   public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct Image {
         return (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * 3U;
     }
 };
+
+// Whether every value is 0.
+[[nodiscard]] inline bool is_black(const Image& image) {
+    return std::all_of(image.rgb.begin(), image.rgb.end(), [](float value) { return value == 0.0F; });
+}
 
 }  // namespace bounce

@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "gl/memory.h"
 
 namespace bounce {
 namespace {
-
-constexpr double k_mebibyte = 1024.0 * 1024.0;
 
 // Halves a setting down to `least`; the sentence where it did.
 std::string halve(int& value, int least, const char* what) {
@@ -113,7 +112,7 @@ void fit_frame(Renderer& renderer, const Moment& moment, size_t limit, MemoryFit
             "{}x{} pixels of {} need {:.3g} MiB of GPU memory with the least settings, and the limit is "
             "{:.3g}: raise --memory-limit or give a smaller --size",
             fit.settings.width, fit.settings.height, renderer.gpu_scene().source().name,
-            static_cast<double>(peak) / k_mebibyte, static_cast<double>(limit) / k_mebibyte));
+            static_cast<double>(peak) / gl::k_mebibyte, static_cast<double>(limit) / gl::k_mebibyte));
     }
     fit.peak_bytes = std::max(fit.peak_bytes, peak);
 }

@@ -74,8 +74,10 @@ bool sends(const scene::Pose& pose, const FramePlan& plan, scene::LightType type
 
 double albedo_bound(const scene::Scene& scene, const scene::Pose& pose, bool glossy) {
     double most = 0.0;
-    for_each_drawn(scene, pose, [&](const scene::Primitive&, const scene::Material& material) {
-        most = std::max(most, albedo_bound(material, glossy));
+    for_each_drawn(scene, pose, [&](const scene::Primitive& primitive, const scene::Material& material) {
+        // A file's vertex colours may be above 1: they count as whatever makes the surface white.
+        const bool any = !primitive.colors.empty() && !material.unlit;
+        most = std::max(most, any ? 1.0 : albedo_bound(material, glossy));
     });
     return most;
 }
@@ -128,6 +130,22 @@ std::vector<LeftOut> absent_details(const scene::Scene& scene, const scene::Pose
                  "no virtual point light shines");
     leave_out_if(shows_light(settings.show), "debug layers", "the picture itself is shown");
     return out;
+}
+
+bool splats_points(const FramePlan& plan, const Settings& settings) {
+    const bool emitters = plan.emitters && plan.emitters_occluded;
+    return plan.world_occluded || ((plan.occluded || emitters) && (settings.visibility == Visibility::ism ||
+                                                                   settings.technique != Technique::ism));
+}
+
+bool draws_from_points(const FramePlan& plan, const Settings& settings) {
+    return settings.bounce_source != BounceSource::avg &&
+           (plan.bounces > 1 || plan.world_bounces > 0 || plan.emitter_bounces > 0);
+}
+
+bool points_needed(const FramePlan& plan, const Settings& settings) {
+    return splats_points(plan, settings) || draws_from_points(plan, settings) || plan.emitters ||
+           plan.imperfect_shadows;
 }
 
 }  // namespace bounce

@@ -11,7 +11,8 @@
 namespace bounce {
 
 // An upper bound of what the materials that the pose draws reflect of the light that meets them, 0 to 1; a
-// texture counts as white. glossy: with what their glossy lobes reflect.
+// texture counts as white, and so does a surface with vertex colours. glossy: with what their glossy lobes
+// reflect.
 [[nodiscard]] double albedo_bound(const scene::Scene& scene, const scene::Pose& pose, bool glossy);
 
 // Of so many bounces that were asked for, those after which less than k_least_bounced_share of the lights'
@@ -23,5 +24,12 @@ inline constexpr double k_least_bounced_share = 1e-3;
 // settings have no work for: to be appended to FramePlan::left_out.
 [[nodiscard]] std::vector<LeftOut> absent_details(const scene::Scene& scene, const scene::Pose& pose,
                                                   const Settings& settings, const FramePlan& plan);
+
+// Imperfect shadow maps are drawn from points; classic ones from triangles.
+[[nodiscard]] bool splats_points(const FramePlan& plan, const Settings& settings);
+// Further bounces are drawn from points; or traced through the approximate visibility grid.
+[[nodiscard]] bool draws_from_points(const FramePlan& plan, const Settings& settings);
+// Whether points of the scene are needed at all.
+[[nodiscard]] bool points_needed(const FramePlan& plan, const Settings& settings);
 
 }  // namespace bounce

@@ -3,6 +3,14 @@
 
 namespace bounce {
 
+const std::map<std::string, Preset>& preset_names() {
+    static const std::map<std::string, Preset> names = {
+        {"auto", Preset::automatic},  {"rsm2005", Preset::rsm2005},
+        {"ism2008", Preset::ism2008}, {"lv2009", Preset::lv2009},
+        {"avg2012", Preset::avg2012}, {"metropolis2013", Preset::metropolis2013}};
+    return names;
+}
+
 Settings preset_settings(Preset preset) {
     Settings out;
     switch (preset) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "renderer/settings.h"
 
 namespace bounce {
@@ -17,6 +20,9 @@ enum class Preset {
                      // Illumination"
     metropolis2013,  // Barak et al. 2013, "Temporally Coherent Adaptive Sampling for Imperfect Shadow Maps"
 };
+
+// As on the command line.
+[[nodiscard]] const std::map<std::string, Preset>& preset_names();
 
 [[nodiscard]] Settings preset_settings(Preset preset);
 

@@ -110,7 +110,6 @@ class Renderer {
     // Whether more frames of this scene are to come: what passes made and what is still the same in the frame
     // after keep_frame() is then not made again. A picture is the same either way, to the bit.
     void expect_frames(bool more) { contents_.set_on(more, pool_); }
-    [[nodiscard]] bool expects_frames() const { return contents_.on(); }
     // The frame that was drawn last is the frame before the next one, for all that goes on from frame to
     // frame. A frame may be drawn several times before: each starts from the same. With
     // Settings::temporal_reuse each frame takes light of the one that was drawn last before keep_frame(), so

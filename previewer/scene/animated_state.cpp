@@ -193,19 +193,49 @@ AnimatedState rest_state(const Scene& scene) {
     return state;
 }
 
-void play(const Scene& scene, double time_s, int animation, AnimatedState& state, Pose& pose) {
+namespace {
+
+// Calls visit(channel, its values) for each channel that is played and wanted.
+template <typename Wanted, typename Visit>
+void for_each_value(const Scene& scene, double time_s, int animation, const Wanted& wanted,
+                    const Visit& visit) {
     for (size_t i = 0; i < scene.animations.size(); ++i) {
         if (animation != k_all_animations && static_cast<size_t>(animation) != i) {
             continue;
         }
         const Animation& clip = scene.animations[i];
         for (const AnimationChannel& channel : clip.channels) {
-            set(state, pose, channel,
-                sample(clip.samplers[static_cast<size_t>(channel.sampler)], time_s,
-                       channel.property == Property::node_rotation ||
-                           channel.property == Property::world_rotation));
+            if (wanted(channel)) {
+                visit(channel, sample(clip.samplers[static_cast<size_t>(channel.sampler)], time_s,
+                                      channel.property == Property::node_rotation ||
+                                          channel.property == Property::world_rotation));
+            }
         }
     }
+}
+
+}  // namespace
+
+void play(const Scene& scene, double time_s, int animation, AnimatedState& state, Pose& pose) {
+    for_each_value(
+        scene, time_s, animation, [](const AnimationChannel&) { return true; },
+        [&](const AnimationChannel& channel, Values values) {
+            set(state, pose, channel, std::move(values));
+        });
+}
+
+std::vector<Material> play_materials(const Scene& scene, double time_s, int animation) {
+    std::vector<Material> out = scene.materials;
+    for_each_value(
+        scene, time_s, animation,
+        [](const AnimationChannel& channel) {
+            return channel.property >= Property::material_base_color &&
+                   channel.property <= Property::material_emission_strength;
+        },
+        [&](const AnimationChannel& channel, const Values& values) {
+            set_material(out[static_cast<size_t>(channel.index)], channel.property, values);
+        });
+    return out;
 }
 
 }  // namespace bounce::scene

@@ -21,4 +21,7 @@ struct AnimatedState {
 // cameras, materials, world and view.
 void play(const Scene& scene, double time_s, int animation, AnimatedState& state, Pose& pose);
 
+// The scene's materials as the animation has them, and nothing else.
+[[nodiscard]] std::vector<Material> play_materials(const Scene& scene, double time_s, int animation);
+
 }  // namespace bounce::scene

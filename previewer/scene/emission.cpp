@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "scene/animated_state.h"
 #include "scene/points/outline.h"
 #include "scene/pose.h"
 
@@ -183,8 +184,7 @@ std::vector<glm::vec3> peak_radiance(const Scene& scene, int animation) {
         }
     }
     for (const double time_s : moments) {
-        const std::vector<glm::vec3> now =
-            emitted_radiance(evaluate_pose(scene, time_s, animation).materials);
+        const std::vector<glm::vec3> now = emitted_radiance(play_materials(scene, time_s, animation));
         for (size_t m = 0; m < peak.size(); ++m) {
             peak[m] = emitted_luminance(now[m]) > emitted_luminance(peak[m]) ? now[m] : peak[m];
         }

@@ -20,8 +20,8 @@ namespace bounce::scene {
 [[nodiscard]] std::vector<bool> may_emit(const Scene& scene);
 
 // What each of the scene's materials sends at its brightest, luminance by luminance, of nine moments spread
-// over the animation (as in evaluate_pose) and the file's own values; without textures, W/(m^2 sr). Samples
-// in proportion to it stay where they are while emission changes.
+// over the animation (as in evaluate_pose), those of the keys of emission, and the file's own values; without
+// textures, W/(m^2 sr). Samples in proportion to it stay where they are while emission changes.
 [[nodiscard]] std::vector<glm::vec3> peak_radiance(const Scene& scene, int animation);
 
 // What each material sends at a pose, without textures, W/(m^2 sr); an unlit one nothing.

@@ -15,6 +15,11 @@ struct Bounds {
     [[nodiscard]] bool empty() const { return low.x > high.x; }
     [[nodiscard]] glm::dvec3 center() const { return 0.5 * (low + high); }
     [[nodiscard]] double diagonal() const { return empty() ? 0.0 : glm::length(high - low); }
+    // Of all six sides.
+    [[nodiscard]] double surface_m2() const {
+        const glm::dvec3 side = empty() ? glm::dvec3(0.0) : high - low;
+        return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+    }
     void grow(const glm::dvec3& point);
     void grow(const Bounds& other);
 };

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "scene/geometry_tools.h"
 #include "scene/pose.h"
 #include "scene/primitive_bounds.h"
 
@@ -17,39 +18,14 @@ size_t at(int index) {
     return static_cast<size_t>(index);
 }
 
-// A stream that may be empty, of these vertices.
-template <typename T>
-std::vector<T> picked(const std::vector<T>& stream, const std::vector<uint32_t>& vertices) {
-    std::vector<T> out;
-    if (!stream.empty()) {
-        out.reserve(vertices.size());
-        for (const uint32_t vertex : vertices) {
-            out.push_back(stream[vertex]);
-        }
-    }
-    return out;
-}
-
 // Of the primitive the triangles [first, end), with the vertices they need, in their order.
 Primitive part_of(const Primitive& whole, size_t first, size_t end) {
     std::vector<uint32_t> vertices(whole.indices.begin() + static_cast<std::ptrdiff_t>(3 * first),
                                    whole.indices.begin() + static_cast<std::ptrdiff_t>(3 * end));
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    Primitive out;
-    out.material = whole.material;
-    out.positions = picked(whole.positions, vertices);
-    out.normals = picked(whole.normals, vertices);
-    out.tangents = picked(whole.tangents, vertices);
-    out.uv0 = picked(whole.uv0, vertices);
-    out.uv1 = picked(whole.uv1, vertices);
-    out.colors = picked(whole.colors, vertices);
-    out.joints = picked(whole.joints, vertices);
-    out.weights = picked(whole.weights, vertices);
-    for (const MorphTarget& target : whole.targets) {
-        out.targets.push_back({picked(target.positions, vertices), picked(target.normals, vertices),
-                               picked(target.tangents, vertices)});
-    }
+    Primitive out = gather_vertices(whole, vertices);
+    out.indices.clear();
     for (size_t i = 3 * first; i < 3 * end; ++i) {
         const auto found = std::lower_bound(vertices.begin(), vertices.end(), whole.indices[i]);
         out.indices.push_back(static_cast<uint32_t>(found - vertices.begin()));

@@ -61,3 +61,12 @@ def test_without_it_a_warning_and_the_picture(bounce, room, broken, tmp_path):
     assert result.returncode == 0, result.stderr
     assert "1 pixels are not finite" in result.stderr and "--check-finite" in result.stderr
     assert (tmp_path / "out.exr").exists()
+
+
+def test_settings_chosen_on_trial_are_checked_as_well(bounce, room, broken, tmp_path):
+    """The settings that a budget chooses take the place of those that were typed; the check stays."""
+    result = bounce("render", room, "-o", "out.exr", "--size", "32x18", "--budget-ms", "1000", "--check-finite", "--antialias", "off",
+                    environment=broken(*COMPOSITE))
+    assert result.returncode == 1, result.stderr
+    assert "pass composite wrote NaN into color at pixel (20, 12)" in result.stderr
+    assert not (tmp_path / "out.exr").exists()

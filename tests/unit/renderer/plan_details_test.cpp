@@ -46,6 +46,12 @@ TEST(AlbedoBound, IsTheLargestChannelAndWhatLobesReflect) {
     material.unlit = true;
     EXPECT_EQ(bound(material, true), 0.0) << "what is unlit reflects nothing";
     EXPECT_EQ(albedo_bound({}, {}, true), 0.0);
+    scene::Material dark;
+    dark.base_color = glm::vec4(0.01F, 0.01F, 0.01F, 1.0F);
+    scene::Scene bright = square(dark);
+    bright.meshes[0].primitives[0].colors.assign(3, glm::vec4(50.0F));
+    EXPECT_EQ(albedo_bound(bright, scene::evaluate_pose(bright, 0.0), false), 1.0)
+        << "colours of vertices may be above 1";
 }
 
 TEST(CountedBounces, AreThoseBeforeTheRestIsTooLittle) {
